@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Checks that every source of sdk/ and drivers/ has a test that a reader can find.
+"""Checks that every source of sdk/ and drivers/ has a test that a reader can find, and that every test is compiled.
 
-    mirror.py ROOT [LIST]     prints each source without one; exit code 1 when there is one
+    mirror.py ROOT [LIST]     prints each source without one, and each test that is not; exit code 1 when there is one
 
 A source a/b.cpp has its test in tests/unit/a/b_test.cpp (sdk/ left out); b_scalar.cpp and b_simd.cpp, the same code for
 several instruction sets, share that of b.  sdk/runtime/capi/b.cpp may have it in tests/capi/b_test.cpp, by the C interface.
 Otherwise some test includes its header a/b.h, or the list, mirror.txt beside this file, says which test runs it:
 "source-or-folder: test".  A line of the list that is not needed, or names no file, is a fault too.
+A test tests/**/a_test.cpp is compiled where a CMakeLists.txt names it.
 """
+import os
 import pathlib
 import re
 import sys
 
 SOURCES = (".c", ".cpp")
 C_INTERFACE = pathlib.PurePath("runtime/capi")
+TEST = re.compile(r"[\w./-]+_test\.cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -53,6 +56,12 @@ def read_list(path):
             yield number, pathlib.PurePath(name.strip()), test.strip()
 
 
+def not_compiled(root):
+    """Tests that no CMakeLists.txt names, by their path from its folder."""
+    named = {os.path.normpath(lists.parent / name) for lists in (root / "tests").rglob("CMakeLists.txt") for name in TEST.findall(lists.read_text())}
+    return sorted(path.relative_to(root) for path in (root / "tests").rglob("*_test.cpp") if str(path) not in named)
+
+
 def faults(root, listed):
     includes = included(root)
     needed = {source for source in sources(root) if not is_mirrored(root, source, includes)}
@@ -66,12 +75,14 @@ def faults(root, listed):
         covered |= mine
     for source in sorted(needed - covered):
         yield "%s: no test of its name, none that includes its header, no line in %s" % (source, listed.name)
+    for test in not_compiled(root):
+        yield "%s: no CMakeLists.txt names it, so it is not compiled" % test
 
 
 def main(arguments):
-    root = pathlib.Path(arguments[0])
+    root = pathlib.Path(arguments[0]).resolve()
     found = list(faults(root, pathlib.Path(arguments[1]) if len(arguments) > 1 else pathlib.Path(__file__).with_name("mirror.txt")))
-    print("\n".join(found) if found else "every source has a test")
+    print("\n".join(found) if found else "every source has a test, and every test is compiled")
     return 1 if found else 0
 
 

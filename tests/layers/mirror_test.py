@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""mirror.py finds sources without a test, and lines that are not needed."""
+"""mirror.py finds sources without a test, lines that are not needed, and tests that are not compiled."""
 import pathlib
 import tempfile
 import unittest
@@ -15,6 +15,7 @@ class Mirror(unittest.TestCase):
         for source in ("sdk/a/mirrored.cpp", "sdk/a/included.cpp", "sdk/a/alone.cpp", "drivers/d/alone.c"):
             self.write(source, "")
         self.write("tests/unit/a/mirrored_test.cpp", '#include "a/included.h"\n')
+        self.write("tests/unit/CMakeLists.txt", "sphc_test(a SOURCES a/mirrored_test.cpp)\n")
 
     def write(self, name, text):
         path = self.root / name
@@ -39,6 +40,7 @@ class Mirror(unittest.TestCase):
         self.write("sdk/runtime/capi/b.cpp", "")
         self.write("sdk/a/b.cpp", "")
         self.write("tests/capi/b_test.cpp", "")
+        self.write("tests/capi/CMakeLists.txt", "sphc_test(b SOURCES b_test.cpp)\n")
         self.assertEqual(["sdk/a/b.cpp"], [f.split(":")[0] for f in self.faults("sdk/a/alone.cpp: unit/a\ndrivers/d: unit/a\n")])
 
     def test_a_line_names_its_test(self):
@@ -49,6 +51,13 @@ class Mirror(unittest.TestCase):
         good = "sdk/a/alone.cpp: unit/a\ndrivers/d: unit/a\n"
         for line in ("drivers/d/alone.c: unit/a/no_test.cpp", "sdk/a/mirrored.cpp: unit/a", "sdk/gone.cpp: unit/a"):
             self.assertTrue(self.faults(good + line + "\n"), line)
+
+    def test_a_test_that_is_not_compiled_is_named(self):
+        listed = "sdk/a/alone.cpp: unit/a\ndrivers/d: unit/a\n"
+        self.write("tests/unit/b/mirrored_test.cpp", "")
+        self.write("tests/unit/b/further_test.cpp", "")
+        self.write("tests/unit/CMakeLists.txt", "sphc_test(a SOURCES a/mirrored_test.cpp b/further_test.cpp)\n")
+        self.assertEqual(["tests/unit/b/mirrored_test.cpp"], [fault.split(":")[0] for fault in self.faults(listed)])
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ namespace sphc {
 namespace {
 
 constexpr uint64_t kMs = 1000000;
-constexpr double kTurn = 0.001, kShift = 0.002;  // of a step, 1 sigma
+constexpr double kTurnOfStep = 0.001, kShiftOfStep = 0.002;  // of a step, 1 sigma
 
 // A camera that turns and speeds up, as odometry sees it.
 Rigid cameraAt(double time_s) {
@@ -24,8 +24,9 @@ RecentSteps walked(int steps, double step_ms, double end_s) {
   RecentSteps recent;
   for (int i = steps; i > 0; --i) {
     const double step_s = step_ms * 1e-3;
-    recent.push({cameraAt(end_s - (i - 1) * step_s) * cameraAt(end_s - i * step_s).inverse(), kTurn, kShift},
-                static_cast<uint64_t>(step_ms * kMs));
+    recent.push(
+        {cameraAt(end_s - (i - 1) * step_s) * cameraAt(end_s - i * step_s).inverse(), kTurnOfStep, kShiftOfStep},
+        static_cast<uint64_t>(step_ms * kMs));
   }
   return recent;
 }
@@ -65,14 +66,14 @@ TEST(RecentSteps, ErrorsOfStepsAddUp) {
   for (const auto &one : cases) {
     Way way;
     ASSERT_TRUE(recent.wayFromAgo(one.ago_ms * kMs, &way)) << one.ago_ms;
-    EXPECT_NEAR(way.turn_sigma_rad, std::sqrt(one.steps) * kTurn, 1e-9) << one.ago_ms;
-    EXPECT_NEAR(way.shift_sigma_m, std::sqrt(one.steps) * kShift, 1e-9) << one.ago_ms;
+    EXPECT_NEAR(way.turn_sigma_rad, std::sqrt(one.steps) * kTurnOfStep, 1e-9) << one.ago_ms;
+    EXPECT_NEAR(way.shift_sigma_m, std::sqrt(one.steps) * kShiftOfStep, 1e-9) << one.ago_ms;
   }
   Way ahead, beyond;
   ASSERT_TRUE(recent.wayFromAhead(60 * kMs, &ahead));
-  EXPECT_NEAR(ahead.shift_sigma_m, 2 * kShift, 1e-9) << "what goes on so errs as much again";
+  EXPECT_NEAR(ahead.shift_sigma_m, 2 * kShiftOfStep, 1e-9) << "what goes on so errs as much again";
   ASSERT_TRUE(walked(1, 30, 2).wayFromAgo(90 * kMs, &beyond));
-  EXPECT_NEAR(beyond.shift_sigma_m, 3 * kShift, 1e-9);
+  EXPECT_NEAR(beyond.shift_sigma_m, 3 * kShiftOfStep, 1e-9);
 }
 
 TEST(RecentSteps, ForgetsTheOldest) {
