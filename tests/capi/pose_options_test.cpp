@@ -156,6 +156,8 @@ TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   prior.up_camera[1] = prior.up_map[1] = 1;
   prior.up_map[2] = 1e300;
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_map is (0, 1, 1e18+)");
+  prior.up_map[2] = 1.001 * SPHC_UP_MAX_LENGTH;
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_map is (0, 1, 1001000)");
   localize(&session, 1, &good);
   EXPECT_EQ(status_, SPHC_OK);  // and it goes on
 }

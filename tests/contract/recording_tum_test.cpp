@@ -110,7 +110,7 @@ TEST_F(Tum, PosesKeepTheirImagesWhenADoubleRoundedTheirTimes) {
 }
 
 TEST_F(Tum, LeavesBadPosesOut) {
-  folder_.write("groundtruth.txt", "1 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n3 0 0 0 0 0 0 2\n4 0 0 0 0 0 0 1\n");
+  folder_.write("groundtruth.txt", "1 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n3 0 0 0 0 0 0 1.02\n4 0 0 0 0 0 0 1\n");
   const OpenReplay replay = open();
   sphc_replay_info info{};
   info.struct_size = sizeof info;
