@@ -137,6 +137,7 @@ TEST_F(AdjustmentTest, ASightingThatIsWrongLeavesItsTrack) {
   const Sighting wrong = adjusted.tracks[0][1];
   made.walk.keyframes[wrong.frame].points[wrong.point].ray.x() += 0.05;
   adjust(made.walk.keyframes, priorOf(0.02), {}, &adjusted);
+  ASSERT_FALSE(adjusted.tracks.empty());
   for (const Track &track : adjusted.tracks)
     for (const Sighting &s : track) EXPECT_FALSE(s.frame == wrong.frame && s.point == wrong.point);
 }

@@ -47,8 +47,12 @@ TEST(PairLinkerTest, LinksAreLookedForWhereTheyAreExpected) {
   for (size_t i = 0; i < wrong.size(); i += 2) wrong[i]->translation_m += Vector3(0, 0, 3);
   PairLinker linker(kMostKeypointsOfPairs, 2);
   const std::vector<FramePair> pairs = {{0, 1}, {2, 3}, {4, 5}};
-  for (const auto &link : linker.link(made.walk.keyframes, pairs, {}, &right)) EXPECT_TRUE(link);
-  for (const auto &link : linker.link(made.walk.keyframes, pairs, {}, &wrong)) EXPECT_FALSE(link);
+  const auto found = linker.link(made.walk.keyframes, pairs, {}, &right),
+             none = linker.link(made.walk.keyframes, pairs, {}, &wrong);
+  ASSERT_EQ(found.size(), pairs.size());
+  ASSERT_EQ(none.size(), pairs.size());
+  for (const auto &link : found) EXPECT_TRUE(link);
+  for (const auto &link : none) EXPECT_FALSE(link);
 }
 
 }  // namespace

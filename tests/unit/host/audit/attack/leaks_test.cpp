@@ -19,7 +19,9 @@ const test::MadeUpRelease &release() {
 }
 
 TEST(Leaks, NoCueOfTheFileTellsRealFromFake) {
-  for (const Cue &cue : fileCues(release().map)) {
+  const std::vector<Cue> cues = fileCues(release().map);
+  ASSERT_FALSE(cues.empty());
+  for (const Cue &cue : cues) {
     const Auc auc = scoreCue(cue, release().truth);
     // Equal directions are so rare that they say nothing either way.
     EXPECT_LT(std::abs(auc.value - 0.5), 4 * auc.standard_error) << cue.name;

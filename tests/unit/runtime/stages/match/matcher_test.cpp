@@ -91,6 +91,7 @@ TEST_F(MatcherTest, BestRatioFirst) {
   for (uint32_t q = 0; q < 50; ++q)
     queries.push_back(jittered(points_[q].descriptor, 2 + static_cast<int>(q), &random_));
   const std::vector<Match> matches = matchExact(queries, 1.0f);
+  ASSERT_GT(matches.size(), 40u);
   for (size_t i = 1; i < matches.size(); ++i)
     EXPECT_LE(1.0 * matches[i - 1].distance2 / matches[i - 1].second2,
               1.0 * matches[i].distance2 / matches[i].second2);
