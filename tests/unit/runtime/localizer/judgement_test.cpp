@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
@@ -144,6 +146,20 @@ TEST(Judgement, ChanceOfAgreement) {
   EXPECT_LT(chance(100, 0, 4 * kPi), chance(100, 30, 4 * kPi));  // what the pose was made from proves nothing
   EXPECT_EQ(chance(100, 3, 1e-12), 0);
   EXPECT_TRUE(isFinite(chance(300, 3, 4 * kPi)));
+}
+
+// Of matches that look from the sphere's centre each region is a circle: where all agree, chance would have to find
+// each but the free ones.
+TEST(Judgement, TheChanceThatAllAgreeIsThatOfEachButTheFreeOnes) {
+  constexpr double kSigmaM = 0.01, kDistanceM = 2, kThreshold2 = 9;
+  constexpr uint32_t kMatches = 20, kFree = 3;
+  const Correspondence one = {{Vector3(0, 0, kDistanceM), kSigmaM, 0.02}, Vector3::UnitZ()};
+  const std::vector<Correspondence> all(kMatches, one);
+  const Span<const Correspondence> span = {all.data(), all.size()};
+  const double share = kPi * kThreshold2 * kSigmaM * kSigmaM / (kDistanceM * kDistanceM * 4 * kPi);
+  EXPECT_NEAR(logChanceOfAgreement(span, Rigid(), kMatches, kFree, {1, kThreshold2, 4 * kPi}),
+              (kMatches - kFree) * std::log(share), 1e-9);
+  EXPECT_EQ(logChanceOfAgreement(span, Rigid(), kFree, kFree, {1, kThreshold2, 4 * kPi}), 0);
 }
 
 }  // namespace
