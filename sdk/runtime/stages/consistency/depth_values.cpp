@@ -5,9 +5,11 @@
 namespace sphc {
 namespace {
 
-constexpr int32_t kSmoothPx = 2, kSurfaceShare = 20;  // pixels around a sample, within 1 / 20 of it, are averaged
-constexpr int32_t kReach = 4;                         // samples from the middle of a place to its ends
-constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
+// Pixels around a sample, within 1 / 20 of it, are averaged: so many on each side, within a quarter of the way to
+// the next sample, lest corners look round.
+constexpr int32_t kMostSmoothPx = 2, kWindowShare = 4, kSurfaceShare = 20;
+constexpr int32_t kReach = 4;          // samples from the middle of a place to its ends
+constexpr float kSlanted2 = 0.006f;    // squared relative change of the inverse depth over the reach
 constexpr float kSmooth = 0.05f;       // relative deviation of the samples between from a straight line
 constexpr uint32_t kRangeShare = 256;  // two ranges within 1 / 256 may have been measured alike
 
@@ -72,6 +74,8 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
       if (std::none_of(seen, seen + found.distinct, is_same)) seen[found.distinct++] = measured;
     }
   }
+  // Of fewer pixels hardly two samples are as far apart as the next two, and corners look round.
+  if (2 * depth.width < 3 * kColumns || 2 * depth.height < 3 * kRows) return found;
   for (int32_t row = kReach; row < kRows - kReach; ++row)
     for (int32_t column = kReach; column < kColumns - kReach; ++column) addBend(column, row, &found);
   if (!found.slanted) return found;
@@ -90,10 +94,11 @@ uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
 
 // One over the mean depth of the pixels around that are on the surface of the middle one.
 float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
+  const int32_t smooth = std::min(kMostSmoothPx, depth.width / (kWindowShare * kColumns));
   const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
   int32_t sum = 0, count = 0;
-  for (int32_t v = std::max(int32_t{0}, y - kSmoothPx); v <= std::min(depth.height - 1, y + kSmoothPx); ++v)
-    for (int32_t u = std::max(int32_t{0}, x - kSmoothPx); u <= std::min(depth.width - 1, x + kSmoothPx); ++u) {
+  for (int32_t v = std::max(int32_t{0}, y - smooth); v <= std::min(depth.height - 1, y + smooth); ++v)
+    for (int32_t u = std::max(int32_t{0}, x - smooth); u <= std::min(depth.width - 1, x + smooth); ++u) {
       const int32_t value = depth.row(v)[u];
       if (absOf(value - middle) > most) continue;
       sum += value;
