@@ -386,7 +386,7 @@ TEST(Advise, DoesNotEndAtABlockThatCannotBeRead) {
 
 // As where tracking was lost: with blocks of all frames, the first had all that a map is made of.
 TEST(Advise, HoldsOutFramesWithAPose) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 8 --rate 6 --out " + walk).exit_code, kExitDone);
   std::istringstream poses(fileText(walk + "/groundtruth.txt"));

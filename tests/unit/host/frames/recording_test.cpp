@@ -30,7 +30,7 @@ TEST(Recording, ColourAndDepthThatNeverMeetAreNamedAsTheCause) {
 
 // Colour comes twice as often as depth, so each depth image is that of two frames.
 TEST(Recording, AChosenFrameKeepsTheDepthThatItHasAmongAll) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   contract::writeTinyRecording(folder.path().string(), 6);
   folder.write("rgb.txt", "1.00 rgb/000000.png\n1.01 rgb/000001.png\n1.02 rgb/000002.png\n1.03 rgb/000003.png\n");
   folder.write("depth.txt", "1.00 depth/000000.png\n1.02 depth/000002.png\n");

@@ -123,7 +123,7 @@ TEST(Lab, ComparesPredictionsWithTheWalk) {
 }
 
 TEST(Lab, RefusesARecordingWithoutPosesWhereTheyTellRightFromWrong) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", map = folder / "maps/map_500.sphc";
   ASSERT_EQ(runCommand("simulate --frames 2 --rate 6 --out " + walk).exit_code, kExitDone);
   ASSERT_EQ(runLab("map -r " + walk + " --points 500 --out " + (folder / "maps")).exit_code, kExitDone);

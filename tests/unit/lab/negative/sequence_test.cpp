@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/contract/temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/refusal.h"
 
@@ -16,7 +16,7 @@ class SequenceTest : public testing::Test {
  protected:
   SequenceTest() { contract::writeTinyRecording(folder_.path().string(), kFrames); }
 
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(SequenceTest, FramesAreAllOrSoManySpreadOverTheRecording) {
