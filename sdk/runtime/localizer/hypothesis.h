@@ -43,9 +43,10 @@ struct Hypothesis {
   Estimate estimate;  // after guided re-matching
   Evidence evidence;
   Leverage leverage;
-  bool is_verified = true;      // false where a deadline left out what might have spoken against it
-  bool is_ambiguous = false;    // uncertain since another pose fits nearly as well, or for odometry
-  bool has_near_rival = false;  // another pose fits well, but not nearly as well; or there was no time to look
+  bool is_verified = true;    // false where a deadline left out what might have spoken against it
+  bool is_ambiguous = false;  // uncertain since another pose fits nearly as well, or for odometry
+  // Another pose fits well, but not nearly as well; or there was no time to look, or it was so a moment ago.
+  bool has_near_rival = false;
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }

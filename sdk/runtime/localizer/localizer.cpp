@@ -86,6 +86,7 @@ void Localizer::reset() {
   odometry_.reset();
   travel_.reset();
   distances_.reset();
+  ambiguity_.reset();
 }
 
 double Localizer::confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad) {
@@ -128,6 +129,7 @@ void Localizer::follow(const FrameInput &frame) {
   Odometry odometry = frame.known.odometry;
   if (travel_.wasScaled()) odometry.scale_sigma = 1;
   tracker_.advance(frame.color_time_ns, is_believed ? &odometry : nullptr);
+  ambiguity_.advance(frame.color_time_ns);
   fusion_.advance(tracker_);
 }
 
@@ -204,6 +206,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
   if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
   if (config_.tracks) compareWithTrack(frame, faults);
+  if (isOfAmbiguousTime(known)) best().has_near_rival = true;
 }
 
 // A wrong vertical may show in the pose, and may be why there is none.
@@ -240,6 +243,12 @@ void Localizer::compareWithTrack(const FrameInput &frame, Faults *faults) {
 bool Localizer::wouldMakeTrackSure(const Known &known, Faults faults) const {
   return config_.tracks && best().isLocalized() && best().guided && !isNarrow(known) && !tracker_.isSure() &&
          surenessOf(faults) > kSureOfTrack;
+}
+
+// Where what is seen repeats, one frame of many shows no rival by chance.
+bool Localizer::isOfAmbiguousTime(const Known &known) const {
+  return config_.tracks && best().isLocalized() && !isNarrow(known) && !(best().guided && tracker_.isSure()) &&
+         ambiguity_.isSeen();
 }
 
 // By what earlier frames said of the points, and of the camera.
@@ -327,6 +336,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
   } else if (config_.tracks) {
     tracker_.miss();
   }
+  if (config_.tracks) ambiguity_.add(best().is_ambiguous && !best().isLocalized());
 }
 
 }  // namespace sphc

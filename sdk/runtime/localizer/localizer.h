@@ -11,6 +11,7 @@
 #include "runtime/localizer/hints.h"
 #include "runtime/localizer/odometry_check.h"
 #include "runtime/localizer/pose_finder.h"
+#include "runtime/localizer/recent_ambiguity.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/stages/align/depth_reader.h"
@@ -77,6 +78,7 @@ class Localizer {
   void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
   void compareWithTrack(const FrameInput &frame, Faults *faults);
   bool wouldMakeTrackSure(const Known &known, Faults faults) const;
+  bool isOfAmbiguousTime(const Known &known) const;
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
@@ -97,6 +99,7 @@ class Localizer {
   OdometryCheck odometry_;
   TravelCheck travel_;
   DistanceCheck distances_;
+  RecentAmbiguity ambiguity_;
   // Of this frame.
   BetweenImages between_;
   double confidence_of_matches_ = 0;  // of the pose, but for what is not known of the way between images
