@@ -244,6 +244,10 @@ def others(pipeline):
          "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
          flat(rows("maps.csv"), ["maps"])),
+        ("Maps of other devices", "pipeline/cameras.csv", "cameras_results",
+         "Twelve simulated rooms, six of them hard, mapped by one device with ten frames, and localized in by another. Wrong: beyond\n"
+         "25 cm or 10 deg. Method: [localizer.md](localizer.md#a-map-of-another-device).",
+         flat(rows("cameras.csv"), ["map", "query"])),
         ("Rigs of several cameras", "pipeline/rig.csv", "rig_results",
          "Cold frames of twelve simulated rooms with bare walls, by the first camera of a rig and by more of them, with as many\n"
          "keypoints in all: as the walk looks, and with nothing but a wall ahead. Method: [localizer.md](localizer.md#rigs-of-several-cameras).",
