@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "host/base/regular_file.h"
+#include "host/base/shell_word.h"
 
 namespace sphc::host {
 namespace {
@@ -62,7 +63,8 @@ void checkPrivate(const std::string &path, const std::string &why) {
   struct stat facts = {};
   if (stat(path.c_str(), &facts) != 0) return;
   if (isForOthers(facts.st_mode))
-    throw std::runtime_error("key file " + path + ": others may read it, and " + why + "; run: chmod 600 " + path);
+    throw std::runtime_error("key file " + path + ": others may read it, and " + why + "; run: chmod 600 " +
+                             shellWord(path));
 }
 
 }  // namespace sphc::host

@@ -169,7 +169,8 @@ AuditRules rulesOf(const AuditOptions &options) {
       const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
       const double value = std::stod(number, &used);
       if (used != number.size() || !std::isfinite(value)) throw std::invalid_argument(number);
-      rules.limits[text.substr(0, equals)] = value;
+      if (!rules.limits.emplace(text.substr(0, equals), value).second)
+        throw UsageError("--limit " + text + ": this limit is given twice");
     } catch (const std::logic_error &) {
       throw UsageError("--limit " + text + " is not NAME=NUMBER, as in --limit real_or_fake.auc=0.55");
     }

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "host/base/counted.h"
+#include "host/base/shell_word.h"
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
-#include "host/cli/common/shell_word.h"
 #include "host/cli/map_recordings.h"
 #include "host/import/model_file.h"
 #include "host/mapping/solver_memory.h"

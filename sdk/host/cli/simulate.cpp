@@ -8,6 +8,7 @@
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
 #include "host/base/counted.h"
+#include "host/base/shell_word.h"
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -15,7 +16,6 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_out.h"
-#include "host/cli/common/shell_word.h"
 #include "host/live/interrupt.h"
 #include "host/report/run.h"
 

@@ -11,6 +11,7 @@
 
 #include "host/base/private_file.h"
 #include "host/base/regular_file.h"
+#include "host/base/shell_word.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/stages/features/extractor.h"
@@ -118,7 +119,7 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
   std::vector<uint8_t> bytes = readAll(file.get(), size);
   const bool is_model = std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
   if (is_model && isForOthers(facts.st_mode))
-    refuse("others may read it, and it tells where every point is; run: chmod 600 " + path);
+    refuse("others may read it, and it tells where every point is; run: chmod 600 " + shellWord(path));
   return bytes;
 }
 

@@ -15,6 +15,7 @@
 
 #include "host/base/private_file.h"
 #include "host/base/regular_file.h"
+#include "host/base/shell_word.h"
 #include "host/publish/sqlite_statement.h"
 #include "runtime/map/crc32.h"
 
@@ -89,7 +90,7 @@ void checkMode(const std::string &path) {
                      "; give the ledger itself, a file");
   // Of an empty file a ledger is made, in its mode.
   if ((facts.st_size == 0 || isLedger(path)) && isForOthers(facts.st_mode))
-    refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
+    refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + shellWord(path));
 }
 
 int64_t valueOf(sqlite3 *database, const char *statement) {

@@ -1,4 +1,4 @@
-#include "host/cli/common/shell_word.h"
+#include "host/base/shell_word.h"
 
 namespace sphc::host {
 
