@@ -10,8 +10,10 @@ struct DepthEdgePoint {
   uint16_t near;      // depth where the rise begins
 };
 
-// Edges of any width: of two pixels, with a hole between near and far, or smoothed to a ramp.  Across and down,
-// both ways; the far side is at least 10 % farther.
-std::vector<DepthEdgePoint> depthEdgePoints(const std::vector<uint16_t> &depth, uint32_t width, uint32_t height);
+// Of two pixels, with a hole between near and far, or smoothed to a ramp.  Across and down, both ways; the far side
+// is at least 10 % farther, and each pixel of the ramp by more than floors of rooms rise in a camera of this focal
+// length, which is 4 % or more.
+std::vector<DepthEdgePoint> depthEdgePoints(const std::vector<uint16_t> &depth, uint32_t width, uint32_t height,
+                                            double focal_px);
 
 }  // namespace sphc::host

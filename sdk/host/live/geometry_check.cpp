@@ -5,7 +5,7 @@
 #include <spherecloud/spherecloud.hpp>
 
 #include "host/base/checked_call.h"
-#include "host/frames/align_edges.h"
+#include "host/frames/image_edges.h"
 #include "host/live/depth_edge_points.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/run.h"
@@ -21,7 +21,8 @@ constexpr double kSurely = 0.5;   // of the distance by chance: five mistakes ar
 constexpr double kUsual_px = 3;       // where depth is not much coarser than colour
 constexpr double kUsualShare = 0.75;  // of a pixel of depth, where it is
 constexpr double kBeyondUsual_px = 1;
-constexpr uint32_t kLeastWidth_px = 480;  // of colour, where it is looked at as coarsely as depth
+constexpr double kLeastWidth_px = 480,
+                 kLeastHeight_px = 360;  // of colour, where it is looked at as coarsely as depth
 constexpr double kFewestApart_px =
     2;  // a median pixel nearer to an edge than this is in an image of nothing but edges
 constexpr uint32_t kChanceStep_px = 5;
@@ -57,9 +58,24 @@ double coarsenessOf(const sphc_rig &rig) { return rig.color_camera.params[0] / r
 
 // Fine texture has edges all over, which hide those of coarse depth.
 uint32_t squareOf(const sphc_rig &rig) {
-  const double most = std::min(coarsenessOf(rig), static_cast<double>(rig.color_camera.width) / kLeastWidth_px);
-  return static_cast<uint32_t>(std::max(1.0, most));
+  const double most = std::min(rig.color_camera.width / kLeastWidth_px, rig.color_camera.height / kLeastHeight_px);
+  return static_cast<uint32_t>(std::max(1.0, std::min(most, coarsenessOf(rig))));
 }
+
+bool isIdentity(const sphc_rigid &rigid) {
+  const auto is_zero = [](double value) { return value == 0; };
+  return std::all_of(rigid.q_wxyz + 1, rigid.q_wxyz + 4, is_zero) && std::all_of(rigid.t_m, rigid.t_m + 3, is_zero);
+}
+
+// What is tried, in the order of Mistake.
+constexpr const char *kMistakeNames[] = {
+    "as calibrated",
+    "depth mirrored left to right; turn mirroring off in the camera, or flip the image",
+    "depth upside down; turn it, or the camera",
+    "depth turned by half a turn; turn it, or the camera",
+    "depth registered to colour by the camera already; say so in the calibration (\"depth_registered\": true), "
+    "or turn registration off",
+    "color_from_depth the wrong way round; it should take points of the depth camera to the colour camera"};
 
 size_t withDepth(const std::vector<uint16_t> &depth) {
   return depth.size() - static_cast<size_t>(std::count(depth.begin(), depth.end(), 0));
@@ -78,21 +94,22 @@ std::vector<uint16_t> packed(const sphc_image &depth) {
 GeometryCheck::GeometryCheck(const sphc_rig &calibration)
     : calibration_(calibration),
       square_(squareOf(calibration)),
-      usual_px_(std::max(kUsual_px, kUsualShare * coarsenessOf(calibration))) {
-  calibration_.color_camera = shrunk(calibration.color_camera, square_);
-}
+      compared_(shrunk(calibration.color_camera, square_)),
+      usual_px_(std::max(kUsual_px, kUsualShare * coarsenessOf(calibration))) {}
 
 bool GeometryCheck::canBe(Mistake mistake) const {
   const sphc_camera &color = calibration_.color_camera, &depth = calibration_.depth_camera;
-  const bool registered = recording::isRegistered(calibration_);
-  if (mistake == kRegistered) return !registered && color.width == depth.width && color.height == depth.height;
-  return mistake != kInverse || !registered;
+  if (mistake == kRegistered)
+    return !recording::isRegistered(calibration_) && color.width == depth.width && color.height == depth.height;
+  return mistake != kInverse || !isIdentity(calibration_.color_from_depth);
 }
 
+// With the colour camera of what is compared.
 sphc_rig GeometryCheck::calibrationOf(Mistake mistake) const {
   sphc_rig calibration = calibration_;
+  calibration.color_camera = compared_;
   if (mistake == kRegistered) {
-    calibration.depth_camera = calibration.color_camera;
+    calibration.depth_camera = calibration_.color_camera;
     calibration.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
   }
   if (mistake == kInverse) sphc_rigid_inverse(&calibration_.color_from_depth, &calibration.color_from_depth);
@@ -120,7 +137,7 @@ std::optional<GeometryCheck::Pixel> GeometryCheck::projected(const DepthEdgePoin
 std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth) const {
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
-  config.rig = calibration_;
+  config.rig = calibrationOf(kNone);
   sphc_memory need = {};
   orThrow("aligner", [&](sphc_message *message) { return sphc_aligner_memory(&config, &need, message); });
   spherecloud::AlignedBuffer memory(need.state_bytes, need.alignment);
@@ -145,7 +162,7 @@ bool GeometryCheck::missesTheImage() const {
 }
 
 void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
-  const uint32_t width = calibration_.color_camera.width, height = calibration_.color_camera.height;
+  const uint32_t width = compared_.width, height = compared_.height;
   const std::vector<uint8_t> edges = imageEdges(grayOf(color, square_), width, height);
   const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
   if (edge_count == 0) return;
@@ -158,7 +175,8 @@ void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
   in_depth_ += measured.size();
   reached_ += withDepth(lies);
   in_image_ += lies.size();
-  const std::vector<DepthEdgePoint> points = depthEdgePoints(measured, depth.width, depth.height);
+  const std::vector<DepthEdgePoint> points =
+      depthEdgePoints(measured, depth.width, depth.height, calibration_.depth_camera.params[0]);
   for (int mistake = 0; mistake < kMistakes; ++mistake) {
     if (!canBe(static_cast<Mistake>(mistake))) continue;
     const sphc_rig rig = calibrationOf(static_cast<Mistake>(mistake));
@@ -182,15 +200,6 @@ std::optional<Finding> GeometryCheck::nothingToTell() const {
 }
 
 Finding GeometryCheck::finding() const {
-  const char *const kNames[kMistakes] = {
-      "as calibrated",
-      "depth mirrored left to right; turn mirroring off in the camera, or flip the image",
-      "depth upside down; turn it, or the camera",
-      "depth turned by half a turn; turn it, or the camera",
-      "depth registered to colour by the camera already; say so in the calibration (\"depth_registered\": true), "
-      "or "
-      "turn registration off",
-      "color_from_depth the wrong way round; it should take points of the depth camera to the colour camera"};
   if (const std::optional<Finding> nothing = nothingToTell()) return *nothing;
   const double chance_px = percentile(chance_px_, 0.5);
   const auto in_px = [this](double compared_px) { return fixed(compared_px * square_, 1); };
@@ -214,7 +223,7 @@ Finding GeometryCheck::finding() const {
                                    : "edges of depth lie " + in_px(calibrated_px) + " px from edges of the image";
   if (best != kNone && medians_px[best] < kClearly * calibrated_px && medians_px[best] < kSurely * chance_px)
     return {Finding::Grade::kWrong, "geometry",
-            seen + " as calibrated, and " + in_px(medians_px[best]) + " px if it is " + kNames[best]};
+            seen + " as calibrated, and " + in_px(medians_px[best]) + " px if it is " + kMistakeNames[best]};
   if (calibrated_px > kClearly * chance_px)
     return {Finding::Grade::kWrong, "geometry",
             seen + ", and any pixel does within " + in_px(chance_px) +

@@ -32,8 +32,9 @@ class GeometryCheck {
   };
   std::optional<Pixel> projected(const DepthEdgePoint &edge, Mistake mistake, const sphc_rig &rig) const;
 
-  sphc_rig calibration_;  // its colour camera is that of squares of pixels
+  sphc_rig calibration_;
   uint32_t square_;       // pixels of colour across one that is compared
+  sphc_camera compared_;  // the colour camera of such squares
   double usual_px_;       // of colour
   std::array<std::vector<double>, kMistakes> distances_px_;
   std::vector<double> chance_px_;  // of any pixel

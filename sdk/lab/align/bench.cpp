@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/frames/align_edges.h"
+#include "host/frames/image_edges.h"
 #include "host/report/statistics.h"
 #include "host/report/table.h"
+#include "lab/align/depth_edges.h"
 #include "lab/pose/table.h"
 
 namespace sphc::host {

@@ -1,8 +1,8 @@
 #include <opencv2/imgproc.hpp>
 
-#include "host/frames/align_edges.h"
 #include "host/report/picture_file.h"
 #include "lab/align/bench.h"
+#include "lab/align/depth_edges.h"
 
 namespace sphc::host {
 namespace {

@@ -8,6 +8,7 @@ namespace sphc::host {
 namespace {
 
 constexpr uint32_t kLine = 128, kLines = 3;
+constexpr double kFocal_px = 100;
 
 // The same row three times: nothing changes down the image.
 std::vector<DepthEdgePoint> edgesOf(std::vector<uint16_t> row) {
@@ -15,7 +16,7 @@ std::vector<DepthEdgePoint> edgesOf(std::vector<uint16_t> row) {
   std::vector<uint16_t> depth;
   for (uint32_t y = 0; y < kLines; ++y) depth.insert(depth.end(), row.begin(), row.end());
   std::vector<DepthEdgePoint> of_a_row;
-  for (const DepthEdgePoint &edge : depthEdgePoints(depth, kLine, kLines))
+  for (const DepthEdgePoint &edge : depthEdgePoints(depth, kLine, kLines, kFocal_px))
     if (edge.y_px == 1.5) of_a_row.push_back(edge);
   return of_a_row;
 }
@@ -49,10 +50,22 @@ TEST(DepthEdgePoints, AreNotOnFloorsNorOnSmallSteps) {
   EXPECT_TRUE(edgesOf({1000, 1000, 1090}).empty());
 }
 
+// A camera 1.5 m above the floor that looks ahead sees it to 5 m away.
+TEST(DepthEdgePoints, AreNotOnTheFloorThatGlassesSee) {
+  constexpr uint32_t kColumns = 64, kRows = 48;
+  constexpr double kFocal = 52, kAboveFloor_m = 1.5;
+  std::vector<uint16_t> depth;
+  for (uint32_t y = 0; y < kRows; ++y) {
+    const double z_m = kAboveFloor_m * kFocal / (y + 0.5);
+    depth.insert(depth.end(), kColumns, static_cast<uint16_t>(z_m < 5 ? 1000 * z_m : 0));
+  }
+  EXPECT_TRUE(depthEdgePoints(depth, kColumns, kRows, kFocal).empty());
+}
+
 TEST(DepthEdgePoints, AreFoundDownTheImageToo) {
   std::vector<uint16_t> depth(size_t{kLine} * kLines, 1000);
   for (uint32_t x = 0; x < kLine; ++x) depth[2 * kLine + x] = 3000;
-  const std::vector<DepthEdgePoint> edges = depthEdgePoints(depth, kLine, kLines);
+  const std::vector<DepthEdgePoint> edges = depthEdgePoints(depth, kLine, kLines, kFocal_px);
   ASSERT_EQ(edges.size(), kLine);
   for (uint32_t x = 0; x < kLine; ++x) {
     EXPECT_EQ(edges[x].x_px, x + 0.5);
@@ -61,7 +74,7 @@ TEST(DepthEdgePoints, AreFoundDownTheImageToo) {
 }
 
 TEST(DepthEdgePoints, OfImagesWithoutDepthAreNone) {
-  EXPECT_TRUE(depthEdgePoints(std::vector<uint16_t>(size_t{kLine} * kLines), kLine, kLines).empty());
+  EXPECT_TRUE(depthEdgePoints(std::vector<uint16_t>(size_t{kLine} * kLines), kLine, kLines, kFocal_px).empty());
 }
 
 }  // namespace

@@ -72,6 +72,25 @@ TEST(GeometryCheckOfAPhone, EdgesOfCoarseDepthMayLieAPixelOfDepthApart) {
   EXPECT_NE(beside.text.find("at most 4 px are usual"), std::string::npos) << beside.text;
 }
 
+TEST(GeometryCheckOfOtherDevices, ATrueCalibrationIsNotWrong) {
+  for (const uint32_t cameras : {SPHC_SIMULATED_CAMERAS_WIDE, SPHC_SIMULATED_CAMERAS_GLASSES}) {
+    sphc_rig calibration;
+    const std::vector<WalkImages> walk = renderWalk(20, 1.25, &calibration, cameras);
+    const Finding sound = lookAt(walk, calibration);
+    EXPECT_EQ(sound.grade, Finding::Grade::kFine) << sound.text;
+  }
+}
+
+// Depth of a wide lens, and a colour image that is a strip: as a calibration may be.
+TEST(GeometryCheckOfAStrip, IsAnswered) {
+  sphc_rig calibration;
+  sphc_rig_init(&calibration);
+  calibration.color_camera = {SPHC_CAMERA_PINHOLE, 8192, 16, 4, {6000, 6000, 4096, 8}};
+  calibration.depth_camera = {SPHC_CAMERA_PINHOLE, 64, 16, 4, {50, 50, 32, 8}};
+  const WalkImages images = {std::vector<uint8_t>(size_t{3} * 8192 * 16, 90), std::vector<uint16_t>(64 * 16, 2000)};
+  EXPECT_EQ(lookAt({images}, calibration).grade, Finding::Grade::kDoubtful);
+}
+
 TEST_F(GeometryCheckTest, MirroringAndTurningAreNamed) {
   const uint32_t width = calibration_.depth_camera.width;
   const Finding mirrored = look(calibration_, [width](std::vector<uint16_t> *depth) {

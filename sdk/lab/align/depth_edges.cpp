@@ -1,12 +1,13 @@
-#include "host/frames/align_edges.h"
+#include "lab/align/depth_edges.h"
 
-#include <opencv2/imgproc.hpp>
+#include <algorithm>
+
+#include "host/frames/image_edges.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kFarther = 1.1;
-constexpr double kLowGradient = 40, kHighGradient = 100;  // Canny's two thresholds
 
 // The next depth along a line of pixels, within `gap_px` beyond the neighbour; 0: none.
 uint16_t nextDepth(const std::vector<uint16_t> &depth, int64_t at, int64_t step, int64_t pixels) {
@@ -34,23 +35,6 @@ std::vector<uint8_t> depthEdges(const std::vector<uint16_t> &depth, uint32_t wid
     }
   }
   return edges;
-}
-
-std::vector<uint8_t> imageEdges(const std::vector<uint8_t> &gray, uint32_t width, uint32_t height) {
-  const cv::Mat image(static_cast<int>(height), static_cast<int>(width), CV_8U, const_cast<uint8_t *>(gray.data()));
-  cv::Mat smooth, edges;
-  cv::GaussianBlur(image, smooth, cv::Size(0, 0), 1);
-  cv::Canny(smooth, edges, kLowGradient, kHighGradient);
-  std::vector<uint8_t> found(gray.size());
-  for (size_t i = 0; i < found.size(); ++i) found[i] = edges.data[i] != 0;
-  return found;
-}
-
-std::vector<float> distancesToEdges(const std::vector<uint8_t> &edges, uint32_t width, uint32_t height) {
-  cv::Mat elsewhere(static_cast<int>(height), static_cast<int>(width), CV_8U), distance;
-  for (size_t i = 0; i < edges.size(); ++i) elsewhere.data[i] = edges[i] ? 0 : 1;
-  cv::distanceTransform(elsewhere, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  return {distance.ptr<float>(), distance.ptr<float>() + edges.size()};
 }
 
 void edgeDistances(const std::vector<uint8_t> &from, const std::vector<uint8_t> &to, uint32_t width,

@@ -9,10 +9,6 @@ namespace sphc::host {
 // depth; 1 or 0 each.
 std::vector<uint8_t> depthEdges(const std::vector<uint16_t> &depth, uint32_t width, uint32_t height,
                                 uint32_t gap_px);
-// Canny's edges of a grey image; 1 or 0 each.
-std::vector<uint8_t> imageEdges(const std::vector<uint8_t> &gray, uint32_t width, uint32_t height);
-// Distance from every pixel to the nearest edge pixel of `edges`, pixels.
-std::vector<float> distancesToEdges(const std::vector<uint8_t> &edges, uint32_t width, uint32_t height);
 // Distance from every edge pixel of `from` to the nearest of `to`, pixels; appended to `distances`.
 void edgeDistances(const std::vector<uint8_t> &from, const std::vector<uint8_t> &to, uint32_t width,
                    uint32_t height, std::vector<double> *distances);
