@@ -191,6 +191,7 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
 void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work) {
   const Known &known = frame.known;
   finder_.begin({&front_, &fusion_, tracker(), calibrator_.current(), between_.areApart()});
+  was_ambiguous_ = false;
   if (*faults & kContradictions) {
     best().outcome = Outcome::kContradiction;
     return;
@@ -205,6 +206,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   }
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
   if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
+  was_ambiguous_ = best().is_ambiguous && !best().isLocalized();
   if (config_.tracks) compareWithTrack(frame, faults);
   if (isOfAmbiguousTime(known)) best().has_near_rival = true;
 }
@@ -336,7 +338,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
   } else if (config_.tracks) {
     tracker_.miss();
   }
-  if (config_.tracks) ambiguity_.add(best().is_ambiguous && !best().isLocalized());
+  if (config_.tracks) ambiguity_.add(was_ambiguous_);
 }
 
 }  // namespace sphc

@@ -101,6 +101,7 @@ class Localizer {
   DistanceCheck distances_;
   RecentAmbiguity ambiguity_;
   // Of this frame.
+  bool was_ambiguous_ = false;  // by what it shows, whatever the track says
   BetweenImages between_;
   double confidence_of_matches_ = 0;  // of the pose, but for what is not known of the way between images
 };

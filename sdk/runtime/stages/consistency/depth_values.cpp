@@ -94,7 +94,8 @@ uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
 
 // One over the mean depth of the pixels around that are on the surface of the middle one.
 float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
-  const int32_t smooth = std::min(kMostSmoothPx, depth.width / (kWindowShare * kColumns));
+  const int32_t smooth = std::min(
+      kMostSmoothPx, std::min(depth.width / (kWindowShare * kColumns), depth.height / (kWindowShare * kRows)));
   const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
   int32_t sum = 0, count = 0;
   for (int32_t v = std::max(int32_t{0}, y - smooth); v <= std::min(depth.height - 1, y + smooth); ++v)

@@ -151,6 +151,19 @@ TEST(LocalizerTracking, ATrackThatIsNotSureBecomesSoInTheWholeMap) {
   }
 }
 
+TEST(LocalizerTracking, AfterAmbiguousFramesAPoseMakesNoTrackSure) {
+  for (const uint32_t ambiguous : {0u, 4u}) {
+    Walk walk(trackingConfig());
+    walk.showBelow(0.5, 4);
+    for (uint32_t i = 0; i < ambiguous; ++i) ASSERT_EQ(walk.see(0).hints, uint32_t{SPHC_HINT_AMBIGUOUS});
+    walk.showBelow(1, 4);
+    const sphc_localizer_result first = walk.see(0), second = walk.see(1);
+    ASSERT_EQ(first.outcome, SPHC_OUTCOME_LOCALIZED);
+    EXPECT_EQ(first.confidence <= 0.95, ambiguous > 0) << first.confidence;
+    EXPECT_EQ(second.state, ambiguous > 0 ? SPHC_STATE_RELOCALIZING : SPHC_STATE_TRACKING);
+  }
+}
+
 TEST(LocalizerTracking, ADarkFrameIsOvercome) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);

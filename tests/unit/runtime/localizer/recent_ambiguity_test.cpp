@@ -7,7 +7,7 @@
 namespace sphc {
 namespace {
 
-constexpr int64_t kAt30Hz = 33333333, kAt10Hz = 100000000;
+constexpr int64_t kAt30Hz = 33333333, kAt10Hz = 100000000, kAt4Hz = 250000000;
 
 // Each letter a frame: "a" is ambiguous.  Is ambiguity seen before the next?
 bool isSeenAfter(const std::string &frames, int64_t step_ns) {
@@ -21,12 +21,13 @@ bool isSeenAfter(const std::string &frames, int64_t step_ns) {
   return recent.isSeen();
 }
 
-TEST(RecentAmbiguity, IsSeenAfterSeveralAmbiguousFramesAtAnyRate) {
+TEST(RecentAmbiguity, IsSeenAfterSeveralAmbiguousFrames) {
   EXPECT_FALSE(isSeenAfter("", kAt30Hz));
   EXPECT_FALSE(isSeenAfter("aa", kAt30Hz));
   EXPECT_TRUE(isSeenAfter("aaa", kAt30Hz));
   EXPECT_FALSE(isSeenAfter("aa", kAt10Hz));
   EXPECT_TRUE(isSeenAfter("aaaa", kAt10Hz));
+  EXPECT_FALSE(isSeenAfter("aaaaaaaaaaaaaaaaaaaa", kAt4Hz)) << "frames too far apart to be of one moment";
 }
 
 TEST(RecentAmbiguity, NeedsAThirdOfTheFrames) {

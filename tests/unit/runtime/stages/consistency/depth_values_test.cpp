@@ -60,6 +60,11 @@ TEST_P(DepthValuesOfSizes, ACornerOfARoomIsNotBent) {
   }
 }
 
+TEST(DepthValuesOfWideImages, ACornerOfARoomIsNotBent) {
+  for (const int32_t height : {48, 100, 200})
+    EXPECT_LT(valuesOf(640, height, {{0.5, 0.1, 0.5, 1.5}, {-0.5, 0.1, 0.5, 1.5}, {0, 1, 0.25, 0.4}}).bend, 0.5);
+}
+
 TEST(DepthValuesOfFewPixels, SayNothingOfBends) {
   EXPECT_EQ(valuesOf(48, 36, {{0.6, 0.2, 0.77, 2}}).slanted, 0u);
   EXPECT_EQ(valuesOf(16, 16, {{0.6, 0.2, 0.77, 2}}).slanted, 0u);
