@@ -19,7 +19,7 @@ constexpr bool isCutInTiles(uint32_t width) { return width % kTile == 0 && kTile
 
 template <uint32_t Width, uint32_t Height>
 sphc_camera makeCamera(sphc_camera_model model, std::initializer_list<double> params) {
-  static_assert(isCutInTiles(Width), "rows are cut in fours");
+  static_assert(isCutInTiles(Width), "images are cut in tiles");
   sphc_camera result{};
   result.model = model;
   result.width = Width;
@@ -77,14 +77,15 @@ Cameras glassesCameras() {
           false};
 }
 
+// By their numbers.
 constexpr struct {
   const char *name;
-  uint32_t kind;
   Cameras (*make)();
-} kKinds[] = {{"headset", SPHC_SIMULATED_CAMERAS_HEADSET, headsetCameras},
-              {"phone", SPHC_SIMULATED_CAMERAS_PHONE, phoneCameras},
-              {"wide", SPHC_SIMULATED_CAMERAS_WIDE, wideCameras},
-              {"glasses", SPHC_SIMULATED_CAMERAS_GLASSES, glassesCameras}};
+} kKinds[] = {
+    {"headset", headsetCameras}, {"phone", phoneCameras}, {"wide", wideCameras}, {"glasses", glassesCameras}};
+
+static_assert(SPHC_SIMULATED_CAMERAS_HEADSET == 0 && SPHC_SIMULATED_CAMERAS_PHONE == 1 &&
+              SPHC_SIMULATED_CAMERAS_WIDE == 2 && SPHC_SIMULATED_CAMERAS_GLASSES == 3);
 
 std::string names() {
   std::string all;
@@ -118,9 +119,9 @@ sphc_status sphc_simulated_parse_cameras(const char *name, uint32_t *cameras, sp
     explain(message, "simulated: the name or the place for its number is null; give both");
     return SPHC_E_ARGUMENT;
   }
-  for (const auto &entry : kKinds) {
-    if (std::strcmp(entry.name, name) != 0) continue;
-    *cameras = entry.kind;
+  for (uint32_t kind = 0; kind < std::size(kKinds); ++kind) {
+    if (std::strcmp(kKinds[kind].name, name) != 0) continue;
+    *cameras = kind;
     return SPHC_OK;
   }
   explain(message, "simulated: cameras '%s' are unknown; there are %s", name, names().c_str());

@@ -59,8 +59,8 @@ float exposureAt(double time_s) {
   return static_cast<float>(1 + 0.14 * std::sin(0.83 * time_s) + 0.07 * std::sin(2.1 * time_s + 1.3));
 }
 
-// How much wider a pixel is in the plane z = 1 than on the axis: that of a fisheye keeps its angle.
-float stretch(const View &view, uint32_t column, uint32_t row) {
+// A pixel of a fisheye keeps its angle, so what it covers grows with the distance and not with z.
+float distanceOverZ(const View &view, uint32_t column, uint32_t row) {
   if (view.camera.model != SPHC_CAMERA_KANNALA_BRANDT4) return 1;
   const Ray2 &ray = view.rays.center(column, row);
   return std::sqrt(1 + ray.x * ray.x + ray.y * ray.y);
@@ -80,7 +80,7 @@ void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Li
         rays.lane[i] = view.rays.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
       }
       const Hits hits = raster.cast(list, rays);
-      const float footprint = footprint_on_axis * stretch(view, column, row);
+      const float footprint = footprint_on_axis * distanceOverZ(view, column, row);
       for (uint32_t i = 0; i < kLanes; ++i) {
         const Hit &hit = hits.lane[i];
         const Seen seen = raster.look(hit, i, rays.lane[i]);

@@ -166,7 +166,7 @@ sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time
 sphc_status sphc_simulated_felt_at(const sphc_simulated *simulated, int64_t time_ns, double felt_mps2[3]);
 
 /* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time;
- * row-major, as many floats in caller memory.  No noise, no blur.  0 never happens: the room is
+ * row-major, a float for each colour pixel, in caller memory.  No noise, no blur.  0 never happens: the room is
  * closed.  In a mirror it is the depth of what is seen there, behind the glass of a window that of the street.
  * Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_oracle_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);

@@ -1,6 +1,7 @@
 #include "drivers/simulated/smooth_depth.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace sphc::simulated {
 namespace {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -116,7 +117,7 @@ TEST(SimulatedCameras, SeeTheSameRoomFromTheSamePlace) {
   }
 }
 
-TEST(SimulatedCameras, APhoneGivesDepthWithoutHolesAndNotOfEdges) {
+TEST(SimulatedCameras, DepthOfAPhoneHasFewHoles) {
   const Handle phone(configWith(SPHC_SIMULATED_CAMERAS_PHONE)), wide(configWith(SPHC_SIMULATED_CAMERAS_WIDE));
   const auto holes = [](const Handle &handle) {
     sphc_rig rig;

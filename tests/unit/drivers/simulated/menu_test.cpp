@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "handle.h"
@@ -33,6 +34,17 @@ TEST(SimulatedMenu, CoversATenthOfTheImage) {
   const double share = shareOfOthers(colorOf(0, 3), colorOf(SPHC_SIMULATED_MENU, 3));
   EXPECT_GT(share, 0.05);
   EXPECT_LT(share, 0.2);
+}
+
+TEST(SimulatedMenu, LiesInTheSmallestImageToo) {
+  constexpr uint32_t kSmallWidth = 480, kSmallHeight = 360;
+  constexpr size_t kGuard = size_t{3} * kSmallWidth * 40;
+  Image guarded(2 * kGuard + size_t{3} * kSmallWidth * kSmallHeight, 128);
+  const Image before = guarded;
+  drawMenu(3.1, kSmallWidth, kSmallHeight, guarded.data() + kGuard);
+  EXPECT_NE(guarded, before);
+  EXPECT_TRUE(std::equal(before.begin(), before.begin() + kGuard, guarded.begin()));
+  EXPECT_TRUE(std::equal(before.end() - kGuard, before.end(), guarded.end() - kGuard));
 }
 
 TEST(SimulatedMenu, StaysButForItsTime) {
