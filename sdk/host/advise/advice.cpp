@@ -18,18 +18,25 @@ struct Block {
   uint32_t first_sequence, last_sequence;  // numbers of the recording
 };
 
-// Of the frames that have a pose: a block that had all of them would leave none for the map.
-std::vector<Block> blocksOf(const RecordingReader &reader, uint32_t folds) {
+std::vector<uint32_t> framesWithPose(const RecordingReader &reader) {
   std::vector<uint32_t> posed;
   for (uint32_t i = 0; i < reader.frameCount(); ++i)
     if (reader.worldFromCamera(i)) posed.push_back(i);
-  const size_t count = posed.size();
-  if (count < 2 * folds)
-    throw std::runtime_error("the recording has " + counted(count, "frame") + " with a pose, too few for " +
+  return posed;
+}
+
+// Before minutes of mapping; of no pose at all the import tells more.
+void checkFolds(size_t posed, uint32_t folds) {
+  if (posed > 0 && posed < size_t{2} * folds)
+    throw std::runtime_error("the recording has " + counted(posed, "frame") + " with a pose, too few for " +
                              std::to_string(folds) + " folds of two; record more, or give fewer --folds");
+}
+
+// Of the frames that have a pose: a block that had all of them would leave none for the map.
+std::vector<Block> blocksOf(const RecordingReader &reader, const std::vector<uint32_t> &posed, uint32_t folds) {
   std::vector<Block> blocks;
   for (size_t k = 0; k < folds; ++k) {
-    const uint32_t first = posed[k * count / folds], last = posed[(k + 1) * count / folds - 1];
+    const uint32_t first = posed[k * posed.size() / folds], last = posed[(k + 1) * posed.size() / folds - 1];
     blocks.push_back({first, last, reader.colorOf(first).sequence, reader.colorOf(last).sequence});
   }
   return blocks;
@@ -114,11 +121,13 @@ void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *f
 Advice advise(RecordingReader *reader, const AdviceOptions &options,
               const std::function<void(const RgbdImportSummary &all)> &mapped,
               const std::function<void(uint32_t done, uint32_t total)> &progress) {
+  const std::vector<uint32_t> posed = framesWithPose(*reader);
+  checkFolds(posed.size(), options.folds);
   Advice advice;
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
   mapped(summary);
-  const std::vector<Block> blocks = blocksOf(*reader, options.folds);
+  const std::vector<Block> blocks = blocksOf(*reader, posed, options.folds);
   advice.left_out = framesLeftOut(summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);

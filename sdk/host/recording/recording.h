@@ -88,7 +88,8 @@ struct FramePair {
 // Finds the layout and reads lists and poses, no image; throws Failure.
 Recording openRecording(const std::filesystem::path &path);
 
-// Keeps the chosen frames, each with the depth image that it has among all; throws Failure when that is none.
+// Keeps the chosen frames, each with the depth image that it has among all, and depth images that are nearest to
+// one of them; throws Failure when that is none.
 void selectFrames(const Selection &selection, int64_t tolerance_ns, Recording &recording);
 
 // Each colour image with the depth image nearest in time, where there is one within the tolerance; of a recording
