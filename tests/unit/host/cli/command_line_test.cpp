@@ -93,14 +93,14 @@ TEST(CommandLine, ALapOfAFlatTakesLongerThanOneOfARoom) {
 TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
   const test::TempFolder folder;
   writeTinyMap(folder / "m.sphc", 200);
-  const std::string audit =
-      "audit " + (folder / "m.sphc") + " --quick --json --limit file.order_sigma=1e9 --limit density.at_centre=0";
+  const std::string alone = "audit " + (folder / "m.sphc") + " --quick --json --limit density.at_centre=0";
+  const std::string audit = alone + " --limit file.order_sigma=1e9";
   const Answer missing = runCommand(audit);
   EXPECT_EQ(missing.exit_code, kExitAuditIncomplete) << missing.err;
   EXPECT_THAT(missing.out, HasSubstr("\"real_or_fake.auc\""));
   EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth").exit_code, kExitAuditIncomplete);
   EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth --allow-unmeasured releases").exit_code, kExitDone);
-  EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth --limit file.order_sigma=-1").exit_code,
+  EXPECT_EQ(runCommand(alone + " --allow-unmeasured truth --limit file.order_sigma=-1").exit_code,
             kExitAuditFailed);
 }
 

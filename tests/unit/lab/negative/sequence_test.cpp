@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
