@@ -53,6 +53,8 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor, bool is
 DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
   uint32_t seen[DepthValues::kMostDistinct] = {};
+  const int32_t reach =
+      std::min(kMostSmoothPx, std::min(depth.width / kColumns, depth.height / kRows) / kWindowShare);
   for (int32_t row = 0; row < kRows; ++row) {
     const int32_t y = pixelOf(row, kRows, depth.height);
     for (int32_t column = 0; column < kColumns; ++column) {
@@ -61,7 +63,7 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
       const uint16_t value = values_[at] = depth.row(y)[x];
       const double z = value * sensor_.unit_m;
       const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
-      inverse_[at] = in_range ? smoothInverse(depth, x, y) : 0;
+      inverse_[at] = in_range ? smoothInverse(depth, x, y, reach) : 0;
       ++found.samples;
       found.measured += value != 0;
       found.in_range += in_range;
@@ -93,13 +95,11 @@ uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
 }
 
 // One over the mean depth of the pixels around that are on the surface of the middle one.
-float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
-  const int32_t smooth = std::min(
-      kMostSmoothPx, std::min(depth.width / (kWindowShare * kColumns), depth.height / (kWindowShare * kRows)));
+float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t reach) const {
   const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
   int32_t sum = 0, count = 0;
-  for (int32_t v = std::max(int32_t{0}, y - smooth); v <= std::min(depth.height - 1, y + smooth); ++v)
-    for (int32_t u = std::max(int32_t{0}, x - smooth); u <= std::min(depth.width - 1, x + smooth); ++u) {
+  for (int32_t v = std::max(int32_t{0}, y - reach); v <= std::min(depth.height - 1, y + reach); ++v)
+    for (int32_t u = std::max(int32_t{0}, x - reach); u <= std::min(depth.width - 1, x + reach); ++u) {
       const int32_t value = depth.row(v)[u];
       if (absOf(value - middle) > most) continue;
       sum += value;

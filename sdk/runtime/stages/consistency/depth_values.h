@@ -40,7 +40,8 @@ class DepthSamples {
   };
   uint32_t asMeasured(uint16_t z, size_t at) const;
   void addBend(int32_t column, int32_t row, DepthValues *found);
-  float smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const;
+  // Over `reach` pixels to each side.
+  float smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t reach) const;
   bool isSmooth(size_t at, size_t step) const;
 
   DepthSensor sensor_ = {};
