@@ -251,9 +251,9 @@ constexpr double kTimesSupport = 2;
 // A track is trusted from a pose of more confidence than this on (decision 88): not from one with a near rival.
 constexpr double kSureOfTrack = 0.95;
 // A pose that neither a sure track nor the caller expects is not sure where, of the frames before it, so many and
-// this share were ambiguous.  Each counts by e^-(its age / kAmbiguousSeconds): below five frames a second never so
-// many.  Decision 104.
-constexpr double kFewestAmbiguous = 2, kShareAmbiguous = 1.0 / 3, kAmbiguousSeconds = 0.5;
+// this share were ambiguous.  A frame counts half as much after a third of a second: below five frames a second
+// never so many.  Decision 104.
+constexpr double kFewestAmbiguous = 2, kShareAmbiguous = 1.0 / 3;
 // Where the camera is expected so vaguely, 1 sigma, any pose is one that agrees, and no track goes on with it.
 // Chosen: as after a third of a second without odometry.
 constexpr double kVagueTurnRad = 0.35, kVagueShiftM = 0.25;

@@ -53,8 +53,8 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor, bool is
 DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
   uint32_t seen[DepthValues::kMostDistinct] = {};
-  const int32_t reach =
-      std::min(kMostSmoothPx, std::min(depth.width / kColumns, depth.height / kRows) / kWindowShare);
+  const int32_t half_pixels_apart = std::min(2 * depth.width / kColumns, 2 * depth.height / kRows);  // of samples
+  const int32_t reach = std::min(kMostSmoothPx, half_pixels_apart / (2 * kWindowShare));
   for (int32_t row = 0; row < kRows; ++row) {
     const int32_t y = pixelOf(row, kRows, depth.height);
     for (int32_t column = 0; column < kColumns; ++column) {
@@ -77,7 +77,7 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
     }
   }
   // Of fewer pixels hardly two samples are as far apart as the next two, and corners look round.
-  if (2 * depth.width < 3 * kColumns || 2 * depth.height < 3 * kRows) return found;
+  if (half_pixels_apart < 3) return found;
   for (int32_t row = kReach; row < kRows - kReach; ++row)
     for (int32_t column = kReach; column < kColumns - kReach; ++column) addBend(column, row, &found);
   if (!found.slanted) return found;
