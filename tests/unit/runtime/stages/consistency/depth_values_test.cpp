@@ -31,8 +31,10 @@ DepthValues valuesOf(int32_t width, int32_t height, const std::vector<Wall> &wal
   for (int32_t y = 0; y < height; ++y)
     for (int32_t x = 0; x < width; ++x) {
       double z_m = 6;
-      for (const Wall &wall : walls)
-        z_m = std::min(z_m, wall.depth_m((x + 0.5 - width / 2.0) / focal_px, (y + 0.5 - height / 2.0) / focal_px));
+      for (const Wall &wall : walls) {
+        const double wall_m = wall.depth_m((x + 0.5 - width / 2.0) / focal_px, (y + 0.5 - height / 2.0) / focal_px);
+        if (wall_m > 0) z_m = std::min(z_m, wall_m);  // else it is behind the camera
+      }
       depth.push_back(static_cast<uint16_t>(1000 * (is_inverted ? 6.5 - z_m : z_m) + 0.5));
     }
   return samples.look({depth.data(), width, height, width});
