@@ -33,8 +33,8 @@ HARD = ["--with", "hands,feet,carpet,bare"]
 Query = collections.namedtuple("Query", "frames hz mode")
 QUERIES = {"single": Query(20, 1.25, "single"), "tracking": Query(60, 30, "tracking"), "elsewhere": Query(15, 1, "single")}
 COLUMNS = ["map", "query", "mode", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
-           "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence", "ece",
-           "elsewhere_frames", "elsewhere_accepted"]
+           "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm",
+           "worst_deg", "worst_confidence", "ece", "elsewhere_frames", "elsewhere_accepted"]
 Frame = collections.namedtuple("Frame", "seed map query mode here answer")
 
 
@@ -92,13 +92,12 @@ def row_of(key, frames):
     centimetres = sorted(errors(frame.answer)[0] for frame in accepted)
     poses = [confidence.pose_of(frame.answer) for frame in accepted]
     tracking = [frame.answer["state"] == "tracking" for frame in accepted]
-    worst = [max(errors(answer)[0] for answer in wrong), max(errors(answer)[1] for answer in wrong),
-             max(answer["confidence"] for answer in wrong)] if wrong else []
+    worst = ["%.1f" % max(errors(answer)[0] for answer in wrong), "%.1f" % max(errors(answer)[1] for answer in wrong),
+             "%.3f" % max(answer["confidence"] for answer in wrong)] if wrong else ["", "", ""]
     return dict(zip(COLUMNS, [
         *key, len(rooms), len(here), "%.1f" % (100 * len(accepted) / len(here)), "%.1f" % statistics.mean(close), "%.1f" % min(close),
-        *(("%.2f" % centimetres[int(share * (len(centimetres) - 1))] for share in (0.5, 0.9)) if accepted else ("", "")), sum(tracking),
-        len(wrong), sum(answer["state"] == "tracking" for answer in wrong),
-        *(["%.1f" % worst[0], "%.1f" % worst[1], "%.3f" % worst[2]] if wrong else ["", "", ""]),
+        *(("%.2f" % centimetres[int(share * (len(centimetres) - 1))] for share in (0.5, 0.9)) if accepted else ("", "")),
+        sum(tracking), len(wrong), sum(answer["state"] == "tracking" for answer in wrong), *worst,
         "%.3f" % confidence.calibration_error(poses) if poses else "", len(elsewhere), sum(map(is_wrong, elsewhere))]))
 
 
