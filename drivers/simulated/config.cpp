@@ -62,6 +62,7 @@ sphc_status checkConfig(const sphc_simulated_config *config, sphc_message *messa
       {"depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1},
       {"depth_max_m", c.depth_max_m, 0.5, 60},
       {"walk_start_s", c.walk_start_s, 0, 1e6},
+      {"color_row_time_ns", static_cast<double>(c.color_row_time_ns), -SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS},
   };
   for (const auto &n : numbers) {
     if (checkNumber(n.name, n.value, n.low, n.high, message) != SPHC_OK) return SPHC_E_ARGUMENT;

@@ -11,7 +11,7 @@ namespace {
 // z at the centre of every pixel.
 void oracle(const Scene &scene, const std::vector<Shape> &shapes, const sphc_camera &camera, const RayTable &rays,
             const Pose &pose, uint32_t threads, float *depth_m) {
-  const Raster raster(scene, shapes, camera, rays, {pose, pose, pose, pose});
+  const Raster raster(scene, shapes, camera, rays, posesOf(pose));
   parallelFor(raster.tileRows(), threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       if (column % kLanes != 0) return;

@@ -11,6 +11,7 @@
 namespace sphc::simulated {
 
 class Raster;
+struct Poses;
 
 // A camera at one moment.
 struct View {
@@ -53,9 +54,17 @@ class Headset {
   struct Light {
     float r = 0, g = 0, b = 0;
   };
+  // Of an exposure, cut into `count` parts of equal length.
+  struct Part {
+    uint32_t index, count;
+  };
 
-  // Adds the light of one part of an exposure, to one sum a pixel.
+  // Adds the light of one part of an exposure, to one sum a pixel: of an image that is exposed at once, of one
+  // whose rows are exposed one after another, of some rows.
   void gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const;
+  void gatherRowByRow(const View &view, const Part &part, std::vector<Light> *lights) const;
+  void gatherRows(const View &view, const Raster &raster, uint32_t top, uint32_t bottom,
+                  std::vector<Light> *lights) const;
   // Of so many parts.
   void developAll(const View &view, const std::vector<Light> &lights, uint32_t parts, uint8_t *rgb) const;
   // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
@@ -67,6 +76,9 @@ class Headset {
   const sphc_camera &depthCamera() const { return cameras_.rig.depth_camera; }
   void renderIdealDepth(uint32_t index, uint16_t *depth) const;
   View depthView(uint32_t index) const;
+  // At the four moments of a part of the exposure about a time.
+  Poses posesDuring(const Part &part, int64_t time_ns) const;
+  double exposure_s() const { return config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time); }
   // Calls visit(pixel, echo, ray) for all pixels, from several threads.
   template <typename Visit>
   void forEchoes(const View &view, const Pose &pose, const Visit &visit) const;

@@ -68,57 +68,81 @@ float distanceOverZ(const View &view, uint32_t column, uint32_t row) {
 
 }  // namespace
 
-void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const {
+void Headset::gatherRows(const View &view, const Raster &raster, uint32_t top, uint32_t bottom,
+                         std::vector<Light> *lights) const {
   static const Squares kSquares;
   // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
   const float footprint_on_axis = 0.6f / static_cast<float>(view.camera.params[0]);
-  parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
-    raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
-      Light sum;
-      Rays rays;
-      for (uint32_t i = 0; i < kLanes; ++i) {
-        rays.lane[i] = view.rays.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
-      }
-      const Hits hits = raster.cast(list, rays);
-      const float footprint = footprint_on_axis * distanceOverZ(view, column, row);
-      for (uint32_t i = 0; i < kLanes; ++i) {
-        const Hit &hit = hits.lane[i];
-        const Seen seen = raster.look(hit, i, rays.lane[i]);
-        // Between the short and the long side of a slanted footprint.
-        const float size = hit.z * footprint / (seen.texture->texel_m * std::sqrt(seen.cosine));
-        // Each ray takes one level; together they mix the two that are nearest.
-        const float level = log2Approximate(size) + (static_cast<float>(i) + 0.5f) / kLanes;
-        const Texel texel =
-            scene_.pool.sample(*seen.texture, seen.u, seen.v, static_cast<int>(std::max(level, 0.0f)));
-        sum.r += kSquares.of[texel & 255];
-        sum.g += kSquares.of[(texel >> 8) & 255];
-        sum.b += kSquares.of[(texel >> 16) & 255];
-      }
-      Light &light = (*lights)[static_cast<size_t>(row) * view.camera.width + column];
-      light.r += sum.r;
-      light.g += sum.g;
-      light.b += sum.b;
-    });
+  raster.forRows(top, bottom, [&](uint32_t column, uint32_t row, const Raster::List &list) {
+    Light sum;
+    Rays rays;
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      rays.lane[i] = view.rays.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
+    }
+    const Hits hits = raster.cast(list, rays);
+    const float footprint = footprint_on_axis * distanceOverZ(view, column, row);
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      const Hit &hit = hits.lane[i];
+      const Seen seen = raster.look(hit, i, rays.lane[i]);
+      // Between the short and the long side of a slanted footprint.
+      const float size = hit.z * footprint / (seen.texture->texel_m * std::sqrt(seen.cosine));
+      // Each ray takes one level; together they mix the two that are nearest.
+      const float level = log2Approximate(size) + (static_cast<float>(i) + 0.5f) / kLanes;
+      const Texel texel =
+          scene_.pool.sample(*seen.texture, seen.u, seen.v, static_cast<int>(std::max(level, 0.0f)));
+      sum.r += kSquares.of[texel & 255];
+      sum.g += kSquares.of[(texel >> 8) & 255];
+      sum.b += kSquares.of[(texel >> 16) & 255];
+    }
+    Light &light = (*lights)[static_cast<size_t>(row) * view.camera.width + column];
+    light.r += sum.r;
+    light.g += sum.g;
+    light.b += sum.b;
   });
+}
+
+void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const {
+  parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
+    gatherRows(view, raster, tile_row * kTile, std::min((tile_row + 1) * kTile, view.camera.height), lights);
+  });
+}
+
+void Headset::gatherRowByRow(const View &view, const Part &part, std::vector<Light> *lights) const {
+  parallelFor(view.camera.height, config_.threads, [&](uint32_t row) {
+    const double rows_below_middle = row + 0.5 - 0.5 * view.camera.height;
+    const int64_t time_ns =
+        view.time_ns + std::llround(rows_below_middle * static_cast<double>(config_.color_row_time_ns));
+    const std::vector<Shape> shapes = shapesAt(time_ns);
+    const Raster raster(scene_, shapes, view.camera, view.rays, posesDuring(part, time_ns));
+    gatherRows(view, raster, row, row + 1, lights);
+  });
+}
+
+Poses Headset::posesDuring(const Part &part, int64_t time_ns) const {
+  Poses poses;
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const double share = (part.index * kLanes + i + 0.5) / (part.count * kLanes) - 0.5;
+    poses.lane[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? share * exposure_s() : 0);
+  }
+  return poses;
 }
 
 void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   const int64_t time_ns = colorTime(index);
-  const double exposure_s = config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time);
   const std::vector<Shape> shapes = shapesAt(time_ns);
-  const Vec3d ahead = {0, 0, 1}, turned = colorPoseAfter(time_ns, exposure_s / 2).rotation * ahead -
-                                          colorPoseAfter(time_ns, -exposure_s / 2).rotation * ahead;
+  const Vec3d ahead = {0, 0, 1}, turned = colorPoseAfter(time_ns, exposure_s() / 2).rotation * ahead -
+                                          colorPoseAfter(time_ns, -exposure_s() / 2).rotation * ahead;
   const double turned_px = std::sqrt(dot(turned, turned)) * colorCamera().params[0];
   const auto parts = static_cast<uint32_t>(std::clamp(std::ceil(turned_px / kLongestPartPx), 1.0, kMostParts));
   const View view = {colorCamera(), color_rays_, cameras_.vignetting, time_ns, noiseSeed(index, 0)};
   std::vector<Light> lights(static_cast<size_t>(colorCamera().width) * colorCamera().height);
-  for (uint32_t part = 0; part < parts; ++part) {
-    Pose poses[kLanes];
-    for (uint32_t i = 0; i < kLanes; ++i) {
-      const double share = (part * kLanes + i + 0.5) / (parts * kLanes) - 0.5;
-      poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? share * exposure_s : 0);
+  for (uint32_t i = 0; i < parts; ++i) {
+    const Part part = {i, parts};
+    if (config_.color_row_time_ns != 0) {
+      gatherRowByRow(view, part, &lights);
+    } else {
+      gatherLight(view, Raster(scene_, shapes, colorCamera(), color_rays_, posesDuring(part, time_ns)), &lights);
     }
-    gatherLight(view, Raster(scene_, shapes, colorCamera(), color_rays_, poses), &lights);
   }
   developAll(view, lights, parts, rgb);
   if ((config_.with & SPHC_SIMULATED_MENU) != 0)
@@ -130,7 +154,7 @@ void Headset::renderView(const sphc_camera &camera, const Pose &pose, int64_t ti
   const View view = {camera, rays, cameras_.vignetting, time_ns, noiseSeed(pose, time_ns, 0)};
   const std::vector<Shape> shapes = shapesAt(time_ns);
   std::vector<Light> lights(static_cast<size_t>(camera.width) * camera.height);
-  gatherLight(view, Raster(scene_, shapes, camera, rays, {pose, pose, pose, pose}), &lights);
+  gatherLight(view, Raster(scene_, shapes, camera, rays, posesOf(pose)), &lights);
   developAll(view, lights, 1, rgb);
 }
 

@@ -111,7 +111,7 @@ View Headset::depthView(uint32_t index) const {
 template <typename Visit>
 void Headset::forEchoes(const View &view, const Pose &pose, const Visit &visit) const {
   const std::vector<Shape> shapes = shapesAt(view.time_ns);
-  const Raster raster(scene_, shapes, view.camera, view.rays, {pose, pose, pose, pose});
+  const Raster raster(scene_, shapes, view.camera, view.rays, posesOf(pose));
   const auto focal = static_cast<float>(view.camera.params[0]);
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {

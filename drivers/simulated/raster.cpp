@@ -20,13 +20,13 @@ Pose mirrored(const Pose &pose, const Vec3d &point, const Vec3d &normal) {
 
 }  // namespace
 
-Raster::Local Raster::localOf(const Shape &shape, const Pose (&poses)[kLanes]) {
+Raster::Local Raster::localOf(const Shape &shape, const Poses &poses) {
   Local local{};
   const Vec3f scale{1 / shape.half.x, 1 / shape.half.y, 1 / shape.half.z};
   for (uint32_t i = 0; i < kLanes; ++i) {
-    const Mat3f m = shape.local_from_world * toFloat(poses[i].rotation);
+    const Mat3f m = shape.local_from_world * toFloat(poses.lane[i].rotation);
     // The difference in double: it decides a depth.
-    const Vec3f o = shape.local_from_world * toFloat(poses[i].center - toDouble(shape.center));
+    const Vec3f o = shape.local_from_world * toFloat(poses.lane[i].center - toDouble(shape.center));
     const auto put = [&](Vec4 &to, float x, float y, float z) {
       to.x[i] = x * scale.x;
       to.y[i] = y * scale.y;
@@ -41,23 +41,23 @@ Raster::Local Raster::localOf(const Shape &shape, const Pose (&poses)[kLanes]) {
 }
 
 Raster::Raster(const TexturePool &pool, const std::vector<Shape> &shapes, const sphc_camera &camera,
-               const RayTable &rays, const Pose (&poses)[kLanes])
-    : pool_(pool), shapes_(shapes), rays_(rays), width_(camera.width), height_(camera.height), cut_(poses[0]) {
+               const RayTable &rays, const Poses &poses)
+    : pool_(pool), shapes_(shapes), rays_(rays), width_(camera.width), height_(camera.height), cut_(poses.lane[0]) {
   locals_.reserve(shapes.size());
   for (const Shape &shape : shapes) locals_.push_back(localOf(shape, poses));
   measure();
 }
 
 Raster::Raster(const Scene &scene, const std::vector<Shape> &shapes, const sphc_camera &camera,
-               const RayTable &rays, const Pose (&poses)[kLanes])
+               const RayTable &rays, const Poses &poses)
     : Raster(scene.pool, shapes, camera, rays, poses) {
   for (const Portal &portal : scene.portals) {
-    Pose there[kLanes] = {poses[0], poses[1], poses[2], poses[3]};
+    Poses there = poses;
     if (portal.mirrors) {
       const Shape &glass = shapes[portal.shape];
       Vec3f point, normal;
       facePoint(glass, 3, 0.5f, 0.5f, &point, &normal);
-      for (Pose &pose : there) pose = mirrored(pose, toDouble(worldPoint(glass, point)), toDouble(normal));
+      for (Pose &pose : there.lane) pose = mirrored(pose, toDouble(worldPoint(glass, point)), toDouble(normal));
     }
     const std::vector<Shape> &seen = portal.mirrors ? shapes : scene.outdoors;
     beyond_.push_back({portal.shape, std::unique_ptr<Raster>(new Raster(scene.pool, seen, camera, rays, there))});

@@ -34,13 +34,17 @@ struct Hits {
 struct Rays {
   Ray2 lane[kLanes];
 };
+// world_from_camera of each lane: moments of one exposure, or one moment four times.
+struct Poses {
+  Pose lane[kLanes];
+};
+inline Poses posesOf(const Pose &pose) { return {{pose, pose, pose, pose}}; }
 
 class Raster {
  public:
-  // world_from_camera of each lane: moments of one exposure, or one moment four times.  `shapes`: the scene's,
-  // where they are at this moment.  Borrows all but the poses.
+  // `shapes`: the scene's, where they are at this moment.  Borrows all but the poses.
   Raster(const Scene &scene, const std::vector<Shape> &shapes, const sphc_camera &camera, const RayTable &rays,
-         const Pose (&poses)[kLanes]);
+         const Poses &poses);
 
   uint32_t tileRows() const { return (height_ + kTile - 1) / kTile; }
   // What may appear in a tile: straight, and through each portal.
@@ -51,14 +55,18 @@ class Raster {
   // Calls pixel(column, row, list) for each pixel of one row of tiles.
   template <class Pixel>
   void forTileRow(uint32_t tile_row, const Pixel &pixel) const {
+    forRows(tile_row * kTile, std::min((tile_row + 1) * kTile, height_), pixel);
+  }
+  // The same for the rows from `top` to before `bottom`, a row of tiles at most.
+  template <class Pixel>
+  void forRows(uint32_t top, uint32_t bottom, const Pixel &pixel) const {
     List list;
     list.straight.reserve(shapes_.size());
     list.beyond.resize(beyond_.size());
-    const uint32_t bottom = std::min((tile_row + 1) * kTile, height_);
     for (uint32_t left = 0; left < width_; left += kTile) {
       const uint32_t right = std::min(left + kTile, width_);
-      gatherAll(left, tile_row * kTile, right, bottom, list);
-      for (uint32_t row = tile_row * kTile; row < bottom; ++row) {
+      gatherAll(left, top, right, bottom, list);
+      for (uint32_t row = top; row < bottom; ++row) {
         for (uint32_t column = left; column < right; ++column) pixel(column, row, list);
       }
     }
@@ -73,7 +81,7 @@ class Raster {
     std::unique_ptr<Raster> raster;
   };
   Raster(const TexturePool &pool, const std::vector<Shape> &shapes, const sphc_camera &camera, const RayTable &rays,
-         const Pose (&poses)[kLanes]);
+         const Poses &poses);
   // Where a shape may appear: a rectangle of the plane z = 1, and its least depth.
   struct Extent {
     float x0, y0, x1, y1, z;
@@ -88,7 +96,7 @@ class Raster {
   struct Local {
     Vec4 origin, x, y, z;
   };
-  static Local localOf(const Shape &shape, const Pose (&poses)[kLanes]);
+  static Local localOf(const Shape &shape, const Poses &poses);
   LocalRay local(uint32_t shape, uint32_t lane, const Ray2 &ray) const;
   void meet(uint32_t shape, const Rays &rays, Float4 x, Float4 y, Float4 from, Hits &hits, Float4 &nearest) const;
 

@@ -111,6 +111,10 @@ typedef struct sphc_simulated_config {
                          light comes back, anything where nearly none does, all mixed pixels of edges; the source's
                          depth captures then have amplitudes; not with those of a phone; default 0 */
   uint32_t cameras;   /* SPHC_SIMULATED_CAMERAS_...; default that of a headset */
+
+  /* A rolling shutter of the colour camera: from a row's exposure to that of the row below it, either way; the
+   * middle of the image is exposed at the frame's time.  SPHC_ROW_TIME_MAX_NS at most; default 0, all at once. */
+  int64_t color_row_time_ns;
 } sphc_simulated_config;
 
 typedef struct sphc_simulated sphc_simulated;

@@ -77,6 +77,14 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
 
+void noteUselessRowTime(const LocalizeOptions &options, const Console &console) {
+  if (options.config.color_row_time_ns == 0) return;
+  if (options.odometry && options.config.mode == SPHC_MODE_TRACKING) return;
+  console.warn(
+      "note: --row-time-ns: how the camera moved while rows were exposed is known by --odometry in --mode tracking "
+      "alone, so it changes nothing");
+}
+
 // They would be neither truth nor odometry without a word.
 void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
   const size_t poses = reader.recording().poses.poses().size();
@@ -95,6 +103,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.reader = reader;
   input.deadline_us = options.deadline_us;
   if (options.odometry) noteUselessOdometry(options, *reader, console);
+  noteUselessRowTime(options, console);
   notePosesOfOtherTimes(options, *reader, console);
   input.play_odometry = options.odometry;
   input.config = options.config;
@@ -253,6 +262,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
   addBandOption(app, &config->color_band, "The light that the colour camera sees; a map must be of the same")
       ->group("Localizer");
   addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
+  add("--row-time-ns", config->color_row_time_ns,
+      "Of a rolling shutter: nanoseconds from a row of colour to the row below it; needs --odometry");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
       ->transform(oneOf<sphc_localizer_mode>({{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}}))

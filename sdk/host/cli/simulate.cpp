@@ -238,6 +238,12 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
           ->capture_default_str()
           ->check(between(0, 0.05))
           ->type_name("S");
+  app->add_option(
+         "--row-time-ns", config.color_row_time_ns,
+         "A rolling shutter: nanoseconds from a row of colour to the row below it, up to a million; 0: none")
+      ->capture_default_str()
+      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+      ->type_name("NS");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
       ->transform(wholeFrom(0))

@@ -171,6 +171,7 @@ std::vector<Setting> describeConfig(const sphc_localizer_config &config, const P
           {"max_iterations", numberText(parameters.max_iterations)},
           {"min_inliers", numberText(parameters.min_inliers)},
           {"probes", numberText(parameters.probes)},
+          {"color_row_time_ns", std::to_string(config.color_row_time_ns)},
           {"depth_min_m", numberText(config.depth_min_m)},
           {"depth_max_m", numberText(config.depth_max_m)},
           {"depth_unit_m", numberText(config.rig.depth_unit_m)},

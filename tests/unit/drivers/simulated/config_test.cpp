@@ -46,6 +46,8 @@ TEST(SimulatedConfig, OpenNamesTheFieldAndTheCure) {
       {"with", [](auto &c) { c.with = SPHC_SIMULATED_DAY | SPHC_SIMULATED_NIGHT; }},
       {"walk_start_s", [](auto &c) { c.walk_start_s = -1; }},
       {"cameras is 4", [](auto &c) { c.cameras = 4; }},
+      {"color_row_time_ns", [](auto &c) { c.color_row_time_ns = 1000001; }},
+      {"color_row_time_ns", [](auto &c) { c.color_row_time_ns = -1000001; }},
       {"a phone gives smoothed depth",
        [](auto &c) {
          c.raw_depth = 1;
