@@ -9,11 +9,8 @@ that are far apart, each alone, and two seconds at 30 Hz in tracking.  So do fra
 is of one device that maps, one that localizes, and one mode.  Every accepted pose that is wrong is printed.
 """
 import collections
-import concurrent.futures
 import csv
 import itertools
-import json
-import os
 import statistics
 import sys
 
@@ -21,13 +18,13 @@ sys.dont_write_bytecode = True
 import confidence
 import room_options
 from nasty import errors, is_close, is_wrong
-from private_key import key_of
-from recordings import HERE, run
+from recordings import HERE
+from simulated_room import SimulatedRoom, frames_of_rooms
 
 RESULTS = HERE / "cameras.csv"
 DEVICES = "headset", "phone", "wide", "glasses"
 ROOMS, FIRST_SEED, ELSEWHERE = 12, 7001, 50  # seeds that nothing else uses; from a room to the one that is elsewhere
-LAP_S, MAP_FRAMES, ETA, FAKES = 16, 10, 0.33, "patchwork"
+LAP_S, MAP_FRAMES = 16, 10
 HARD = ["--with", "hands,feet,carpet,bare"]
 # What is asked: frames, how many a second, and how `localize` looks at them.
 Query = collections.namedtuple("Query", "frames hz mode")
@@ -38,47 +35,30 @@ COLUMNS = ["map", "query", "mode", "rooms", "frames", "accepted_percent", "withi
 Frame = collections.namedtuple("Frame", "seed map query mode here answer")
 
 
-class Room:
+class Room(SimulatedRoom):
     def __init__(self, tool, folder, number):
-        self.tool, self.folder, self.number, self.seed = tool, folder, number, FIRST_SEED + number
-        self.world = HARD if number % 2 else []
+        super().__init__(tool, folder, FIRST_SEED + number, "cameras key %d" % number, HARD if number % 2 else [])
+        self.number = number
 
-    def simulate(self, name, device, seed, *arguments):
-        out = self.folder / ("%s_%s" % (name, device))
-        if not (out / "groundtruth.txt").exists():
-            run([self.tool, "simulate", "--out", out, "--cameras", device, "--seed", seed, "--walk-seed", seed, *self.world,
-                 *arguments, "--threads", 1, "--json"])
-        return out
+    def record_by(self, device, name, *arguments, seed=None):
+        return self.record("%s_%s" % (name, device), "--cameras", device, *arguments, seed=seed)
 
-    def build(self, device):
-        file = self.folder / (device + ".sphc")
-        walk = self.simulate("map", device, self.seed, "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S)
-        key = key_of("cameras key %d" % self.number, self.folder / "key")
-        if not file.exists():
-            run([self.tool, "build", "--recording", walk, "--map", file, "--eta", ETA, "--fakes", FAKES, "--key", key, "--ledger",
-                 self.folder / (device + ".ledger"), "--json"])
-        return file
-
-    def record(self, name, device):
+    def ask(self, name, device):
         query = QUERIES[name]
         seed = self.seed + (ELSEWHERE if name == "elsewhere" else 0)
         spare = max(LAP_S - query.frames / query.hz, 0)  # each room is entered elsewhere on lap two, and left before it ends
         start = LAP_S + spare * self.number / ROOMS
-        return self.simulate(name, device, seed, "--from", "%.2f" % start, "--frames", query.frames, "--rate", query.hz)
-
-    def localize(self, file, recording, name):
-        answers = self.folder / ("%s_%s.frames" % (file.stem, recording.name))
-        run([self.tool, "localize", "--recording", recording, "--map", file, "--owner-note", str(file) + ".owner.json", "--mode",
-             QUERIES[name].mode, "--frames-json", answers, "--json"])
-        return map(json.loads, answers.read_text().splitlines())
+        return self.record_by(device, name, "--from", "%.2f" % start, "--frames", query.frames, "--rate", query.hz, seed=seed)
 
     def frames(self):
-        maps = {device: self.build(device) for device in DEVICES}
+        maps = {device: self.build(device, self.record_by(device, "map", "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S))
+                for device in DEVICES}
         for query, name in itertools.product(DEVICES, QUERIES):
-            recording = self.record(name, query)
+            recording = self.ask(name, query)
+            mode = QUERIES[name].mode
             for device, file in maps.items():
-                for answer in self.localize(file, recording, name):
-                    yield Frame(self.seed, device, query, QUERIES[name].mode, name != "elsewhere", answer)
+                for answer in self.localize(file, recording, mode, "--mode", mode):
+                    yield Frame(self.seed, device, query, mode, name != "elsewhere", answer)
 
 
 def row_of(key, frames):
@@ -108,23 +88,13 @@ def tell(frame):
         answer["sequence"], *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"]), flush=True)
 
 
-def measure_room(tool, keep, number):
-    with room_options.folder_of(keep and keep / ("room_%d" % number)) as folder:
-        return list(Room(tool, folder, number).frames())
-
-
 def main():
     arguments = room_options.parser_of(__doc__, RESULTS, ROOMS).parse_args()
     found = collections.defaultdict(list)
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for number, frames in enumerate(pool.map(lambda number: measure_room(arguments.spherecloud, arguments.keep, number),
-                                                 range(arguments.rooms))):
-            for frame in frames:
-                found[frame.map, frame.query, frame.mode].append(frame)
-                if is_wrong(frame):
-                    tell(frame)
-            if sys.stderr.isatty():
-                print("\r%d of %d rooms" % (number + 1, arguments.rooms), end="", file=sys.stderr)
+    for frame in frames_of_rooms(arguments, lambda *room: Room(*room).frames()):
+        found[frame.map, frame.query, frame.mode].append(frame)
+        if is_wrong(frame):
+            tell(frame)
     order = list(itertools.product(DEVICES, DEVICES, ("single", "tracking")))
     with arguments.results.open("w", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""What a rolling shutter costs, and what `localize --row-time-ns` takes back.
+
+    rolling.py --spherecloud BIN [--results FILE] [--rooms N] [--keep FOLDER]      rewrites rolling.csv, for review
+
+Every room is mapped by a headset and by a telephone, on a lap of ten seconds (brisk: a quarter of a turn in two seconds), and each
+localizes in its own map on lap two, two seconds at 30 Hz: frame by frame, in tracking, with odometry, and with odometry and the
+row time.  Both have cameras that expose at once, or in 20 ms from the first row to the last.  So do frames of another room, of
+which no pose is right: "elsewhere".  Half of the rooms are as they are; in the other half are the holder's hands and feet, carpet,
+and bare walls.  Every accepted pose that is wrong is printed.
+"""
+import collections
+import csv
+import itertools
+import statistics
+import sys
+
+sys.dont_write_bytecode = True
+import confidence
+import room_options
+from nasty import errors, is_close, is_wrong
+from recordings import HERE
+from simulated_room import SimulatedRoom, frames_of_rooms
+
+RESULTS = HERE / "rolling.csv"
+ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # seeds that nothing else uses; from a room to the one that is elsewhere
+LAP_S, MAP_FRAMES, FRAMES, RATE_HZ, ELSEWHERE_FRAMES = 10, 10, 60, 30, 15
+HARD = ["--with", "hands,feet,carpet,bare"]
+ROW_TIME_NS = {"headset": 41667, "phone": 18519}  # 20 ms for 480 and 1080 rows
+SHUTTERS = ("at once", "at once"), ("at once", "rolling"), ("rolling", "rolling")  # of the map, of the query
+WAYS = {"single": ["--mode", "single"], "tracking": [], "odometry": ["--odometry"], "row time": ["--odometry", "--row-time-ns"]}
+COLUMNS = ["device", "map_shutter", "query_shutter", "way", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
+           "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "median_deg", "p90_deg", "translation_over_sigma_median",
+           "rotation_over_sigma_median", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence",
+           "elsewhere_frames", "elsewhere_accepted"]
+Frame = collections.namedtuple("Frame", "seed device map query way here answer")
+
+
+class Room(SimulatedRoom):
+    def __init__(self, tool, folder, number):
+        super().__init__(tool, folder, FIRST_SEED + number, "rolling key %d" % number, HARD if number % 2 else [])
+        self.number = number
+
+    def record_by(self, device, shutter, name, *arguments, seed=None):
+        rows = ["--row-time-ns", ROW_TIME_NS[device]] if shutter == "rolling" else []
+        return self.record("_".join((name, device, shutter.replace(" ", "_"))), "--cameras", device, "--lap", LAP_S, *rows, *arguments,
+                           seed=seed)
+
+    def walk(self, device, shutter):
+        return self.record_by(device, shutter, "map", "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S)
+
+    def query(self, device, shutter):
+        start = LAP_S + (LAP_S - FRAMES / RATE_HZ) * self.number / ROOMS  # each room is entered elsewhere
+        return self.record_by(device, shutter, "here", "--from", "%.2f" % start, "--frames", FRAMES, "--rate", RATE_HZ)
+
+    def elsewhere(self, device, shutter):
+        return self.record_by(device, shutter, "elsewhere", "--from", LAP_S, "--frames", ELSEWHERE_FRAMES, "--rate", 1,
+                              seed=self.seed + ELSEWHERE)
+
+    def frames(self):
+        for device, (of_map, of_query) in itertools.product(ROW_TIME_NS, SHUTTERS):
+            file = self.build("%s_%s" % (device, of_map.replace(" ", "_")), self.walk(device, of_map))
+            for here, recording in ((True, self.query(device, of_query)), (False, self.elsewhere(device, of_query))):
+                for way, arguments in WAYS.items():
+                    if way == "row time" and of_query == "at once":
+                        continue
+                    row_time = [ROW_TIME_NS[device]] if way == "row time" else []
+                    for answer in self.localize(file, recording, way.replace(" ", "_"), *arguments, *row_time):
+                        yield Frame(self.seed, device, of_map, of_query, way, here, answer)
+
+
+def median_and_p90(values):
+    values = sorted(values)
+    return ["%.2f" % values[int(share * (len(values) - 1))] for share in (0.5, 0.9)] if values else ["", ""]
+
+
+def row_of(key, frames):
+    here, elsewhere = ([frame for frame in frames if frame.here == side] for side in (True, False))
+    accepted = [frame.answer for frame in here if frame.answer["localized"]]
+    wrong = [frame.answer for frame in here if is_wrong(frame)]
+    rooms = collections.defaultdict(list)
+    for frame in here:
+        rooms[frame.seed].append(100 * is_close(frame))
+    close = [statistics.mean(room) for room in rooms.values()]
+    poses = [confidence.pose_of(answer) for answer in accepted]
+    centimetres, degrees = ([errors(answer)[part] for answer in accepted] for part in (0, 1))
+    worst = ["%.1f" % max(errors(answer)[0] for answer in wrong), "%.1f" % max(errors(answer)[1] for answer in wrong),
+             "%.3f" % max(answer["confidence"] for answer in wrong)] if wrong else ["", "", ""]
+    return dict(zip(COLUMNS, [
+        *key, len(rooms), len(here), "%.1f" % (100 * len(accepted) / len(here)), "%.1f" % statistics.mean(close), "%.1f" % min(close),
+        *median_and_p90(centimetres), *median_and_p90(degrees), median_and_p90(pose.translation_over_sigma for pose in poses)[0],
+        median_and_p90(pose.rotation_over_sigma for pose in poses)[0], sum(answer["state"] == "tracking" for answer in accepted),
+        len(wrong), sum(answer["state"] == "tracking" for answer in wrong), *worst, len(elsewhere), sum(map(is_wrong, elsewhere))]))
+
+
+def tell(frame):
+    answer = frame.answer
+    print("WRONG room %d, %s, map %s, query %s, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, %d of %d matches, %s" % (
+        frame.seed, frame.device, frame.map, frame.query, frame.way, "here" if frame.here else "elsewhere", answer["sequence"],
+        *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"]), flush=True)
+
+
+def main():
+    arguments = room_options.parser_of(__doc__, RESULTS, ROOMS).parse_args()
+    found = collections.defaultdict(list)
+    for frame in frames_of_rooms(arguments, lambda *room: Room(*room).frames()):
+        found[frame[1:5]].append(frame)
+        if is_wrong(frame):
+            tell(frame)
+    with arguments.results.open("w", newline="") as out:
+        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(row_of(key, frames) for key, frames in sorted(found.items()))
+
+
+if __name__ == "__main__":
+    main()
