@@ -298,33 +298,58 @@ void rollRows(const sphc_localizer_config &config, uint32_t viewpoint, double vi
   }
 }
 
-TEST(Cameras, RowsOfARollingShutterAreTakenToOneTime) {
-  constexpr int64_t kFrameNs = 33000000, kRowNs = 100000;
-  const auto errorWith = [&](int64_t row_time_ns) {
-    sphc_localizer_config config = sphc::test::sceneConfig();
-    config.mode = SPHC_MODE_TRACKING;
-    config.color_row_time_ns = row_time_ns;
-    Session session(config);
+constexpr int64_t kRollingFrameNs = 33000000, kRollingRowNs = 100000;
+
+// The last of a few frames whose rows are taken for that far apart, by odometry or from pose to pose.
+sphc_localizer_result lastOfRolling(int64_t row_time_ns, bool with_odometry, double *error_m) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  config.mode = SPHC_MODE_TRACKING;
+  config.color_row_time_ns = row_time_ns;
+  Session session(config);
+  sphc_localizer_result result = spherecloud::emptyResult();
+  for (uint32_t i = 0; i < 4; ++i) {
+    const auto made = sphc::test::sceneFrame(config, i);
+    rollRows(config, i, static_cast<double>(kRollingRowNs) / kRollingFrameNs, made.get());
+    sphc_localizer_prior prior;
+    sphc_localizer_prior_init(&prior, sizeof prior);
+    prior.flags = SPHC_PRIOR_ODOMETRY;
+    prior.odometry_from_camera = sphc::rigidToC(sphc::test::sceneViewpoint(i).inverse());
+    prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+    if (with_odometry) made->frame.prior = &prior;
+    made->frame.color_time_ns = made->frame.depth_time_ns = kRollingFrameNs * (i + 1);
+    EXPECT_EQ(session.process(made->frame, &result), SPHC_OK);
+    *error_m = session.errorM(result, i);
+  }
+  return result;
+}
+
+double errorOfRolling(int64_t row_time_ns, bool with_odometry) {
+  double error_m = 0;
+  lastOfRolling(row_time_ns, with_odometry, &error_m);
+  return error_m;
+}
+
+TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeByOdometry) {
+  const double error_m = errorOfRolling(kRollingRowNs, true);
+  EXPECT_LT(error_m, 0.004);
+  EXPECT_GT(errorOfRolling(0, true), 2 * error_m);
+  EXPECT_GT(errorOfRolling(-kRollingRowNs, true), 2 * error_m);
+}
+
+TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeFromPoseToPose) {
+  const double error_m = errorOfRolling(kRollingRowNs, false);
+  EXPECT_LT(error_m, 0.004);
+  EXPECT_GT(errorOfRolling(0, false), 2 * error_m);
+}
+
+// What is not known of the rate makes the pose less sure; by odometry all is.
+TEST(Cameras, ARollingShutterMakesPosesLessSure) {
+  const auto sigma = [](int64_t row_time_ns, bool with_odometry) {
     double error_m = 0;
-    for (uint32_t i = 0; i < 3; ++i) {
-      const auto made = sphc::test::sceneFrame(config, i);
-      rollRows(config, i, static_cast<double>(kRowNs) / kFrameNs, made.get());
-      sphc_localizer_prior prior;
-      sphc_localizer_prior_init(&prior, sizeof prior);
-      prior.flags = SPHC_PRIOR_ODOMETRY;
-      prior.odometry_from_camera = sphc::rigidToC(sphc::test::sceneViewpoint(i).inverse());
-      prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
-      made->frame.prior = &prior;
-      made->frame.color_time_ns = made->frame.depth_time_ns = kFrameNs * (i + 1);
-      sphc_localizer_result result = spherecloud::emptyResult();
-      EXPECT_EQ(session.process(made->frame, &result), SPHC_OK);
-      error_m = session.errorM(result, i);
-    }
-    return error_m;
+    const sphc_localizer_result result = lastOfRolling(row_time_ns, with_odometry, &error_m);
+    return std::sqrt(result.covariance[0]);
   };
-  EXPECT_LT(errorWith(kRowNs), 0.004);
-  EXPECT_GT(errorWith(0), 2 * errorWith(kRowNs));
-  EXPECT_GT(errorWith(-kRowNs), errorWith(0));
+  EXPECT_GT(sigma(kRollingRowNs, false), 1.5 * sigma(kRollingRowNs, true));
 }
 
 struct BadConfig {

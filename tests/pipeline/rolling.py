@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What a rolling shutter costs, and what `localize --row-time-ns` takes back.
+"""What a rolling shutter costs, and what `--row-time-ns` of build and localize takes back.
 
     rolling.py --spherecloud BIN [--results FILE] [--rooms N] [--keep FOLDER]      rewrites rolling.csv, for review
 
 Every room is mapped by a headset and by a telephone, on a lap of ten seconds (brisk: a quarter of a turn in two seconds), and each
-localizes in its own map on lap two, two seconds at 30 Hz: frame by frame, in tracking, with odometry, and with odometry and the
-row time.  Both have cameras that expose at once, or in 20 ms from the first row to the last.  So do frames of another room, of
-which no pose is right: "elsewhere".  Half of the rooms are as they are; in the other half are the holder's hands and feet, carpet,
-and bare walls.  Every accepted pose that is wrong is printed.
+localizes in its own maps on lap two, two seconds at 30 Hz: frame by frame, in tracking, and with odometry.  Both have cameras that
+expose at once, or in 20 ms from the first row to the last ("rolling"), and of that the row time is told, or not.  So do frames of
+another room, of which no pose is right: "elsewhere".  Half of the rooms are as they are; in the other half are the holder's hands
+and feet, carpet, and bare walls.  Every accepted pose that is wrong is printed.
 """
 import collections
 import csv
@@ -27,13 +27,19 @@ ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # seeds that nothing else uses; fro
 LAP_S, MAP_FRAMES, FRAMES, RATE_HZ, ELSEWHERE_FRAMES = 10, 10, 60, 30, 15
 HARD = ["--with", "hands,feet,carpet,bare"]
 ROW_TIME_NS = {"headset": 41667, "phone": 18519}  # 20 ms for 480 and 1080 rows
-SHUTTERS = ("at once", "at once"), ("at once", "rolling"), ("rolling", "rolling")  # of the map, of the query
-WAYS = {"single": ["--mode", "single"], "tracking": [], "odometry": ["--odometry"], "row time": ["--odometry", "--row-time-ns"]}
-COLUMNS = ["device", "map_shutter", "query_shutter", "way", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
+SHUTTER_NAMES = AT_ONCE, ROLLING, TOLD = "at once", "rolling", "rolling, told"
+SHUTTERS = (AT_ONCE, AT_ONCE), (AT_ONCE, ROLLING), (AT_ONCE, TOLD), (ROLLING, ROLLING), (ROLLING, TOLD), (TOLD, TOLD)  # map, query
+MODES = {"single": ["--mode", "single"], "tracking": [], "odometry": ["--odometry"]}
+POSES_HZ = 60  # that a map is made with
+COLUMNS = ["device", "map_shutter", "query_shutter", "mode", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
            "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "median_deg", "p90_deg", "translation_over_sigma_median",
            "rotation_over_sigma_median", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence",
            "elsewhere_frames", "elsewhere_accepted"]
-Frame = collections.namedtuple("Frame", "seed device map query way here answer")
+Frame = collections.namedtuple("Frame", "seed device map query mode here answer")
+
+
+def told(device, shutter):
+    return ["--row-time-ns", ROW_TIME_NS[device]] if shutter == TOLD else []
 
 
 class Room(SimulatedRoom):
@@ -42,12 +48,12 @@ class Room(SimulatedRoom):
         self.number = number
 
     def record_by(self, device, shutter, name, *arguments, seed=None):
-        rows = ["--row-time-ns", ROW_TIME_NS[device]] if shutter == "rolling" else []
-        return self.record("_".join((name, device, shutter.replace(" ", "_"))), "--cameras", device, "--lap", LAP_S, *rows, *arguments,
-                           seed=seed)
+        kind, rows = ("at_once", []) if shutter == AT_ONCE else ("rolling", ["--row-time-ns", ROW_TIME_NS[device]])
+        return self.record("_".join((name, device, kind)), "--cameras", device, "--lap", LAP_S, *rows, *arguments, seed=seed)
 
-    def walk(self, device, shutter):
-        return self.record_by(device, shutter, "map", "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S)
+    def map_by(self, device, shutter):
+        walk = self.record_by(device, shutter, "map", "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S, "--poses", POSES_HZ)
+        return self.build("%s_%d" % (device, SHUTTER_NAMES.index(shutter)), walk, *told(device, shutter))
 
     def query(self, device, shutter):
         start = LAP_S + (LAP_S - FRAMES / RATE_HZ) * self.number / ROOMS  # each room is entered elsewhere
@@ -59,14 +65,11 @@ class Room(SimulatedRoom):
 
     def frames(self):
         for device, (of_map, of_query) in itertools.product(ROW_TIME_NS, SHUTTERS):
-            file = self.build("%s_%s" % (device, of_map.replace(" ", "_")), self.walk(device, of_map))
+            file = self.map_by(device, of_map)
             for here, recording in ((True, self.query(device, of_query)), (False, self.elsewhere(device, of_query))):
-                for way, arguments in WAYS.items():
-                    if way == "row time" and of_query == "at once":
-                        continue
-                    row_time = [ROW_TIME_NS[device]] if way == "row time" else []
-                    for answer in self.localize(file, recording, way.replace(" ", "_"), *arguments, *row_time):
-                        yield Frame(self.seed, device, of_map, of_query, way, here, answer)
+                for mode, arguments in MODES.items():
+                    for answer in self.localize(file, recording, mode, *arguments, *told(device, of_query)):
+                        yield Frame(self.seed, device, of_map, of_query, mode, here, answer)
 
 
 def median_and_p90(values):
@@ -96,7 +99,7 @@ def row_of(key, frames):
 def tell(frame):
     answer = frame.answer
     print("WRONG room %d, %s, map %s, query %s, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, %d of %d matches, %s" % (
-        frame.seed, frame.device, frame.map, frame.query, frame.way, "here" if frame.here else "elsewhere", answer["sequence"],
+        frame.seed, frame.device, frame.map, frame.query, frame.mode, "here" if frame.here else "elsewhere", answer["sequence"],
         *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"]), flush=True)
 
 

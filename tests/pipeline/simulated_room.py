@@ -25,11 +25,11 @@ class SimulatedRoom:
                  "--json"])
         return out
 
-    def build(self, name, walk):
+    def build(self, name, walk, *arguments):
         file = self.folder / (name + ".sphc")
         if not file.exists():
             run([self.tool, "build", "--recording", walk, "--map", file, "--eta", ETA, "--fakes", FAKES, "--key", self.key, "--ledger",
-                 self.folder / (name + ".ledger"), "--json"])
+                 self.folder / (name + ".ledger"), *arguments, "--json"])
         return file
 
     def localize(self, file, recording, name, *arguments):

@@ -79,10 +79,10 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
 
 void noteUselessRowTime(const LocalizeOptions &options, const Console &console) {
   if (options.config.color_row_time_ns == 0) return;
-  if (options.odometry && options.config.mode == SPHC_MODE_TRACKING) return;
+  if (options.config.mode == SPHC_MODE_TRACKING) return;
   console.warn(
-      "note: --row-time-ns: how the camera moved while rows were exposed is known by --odometry in --mode tracking "
-      "alone, so it changes nothing");
+      "note: --row-time-ns: how the camera moves is not known in --mode single, so rows stay where they are; poses "
+      "are less sure by that");
 }
 
 // They would be neither truth nor odometry without a word.
@@ -263,7 +263,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
       ->group("Localizer");
   addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
   add("--row-time-ns", config->color_row_time_ns,
-      "Of a rolling shutter: nanoseconds from a row of colour to the row below it; needs --odometry");
+      "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign; for --mode "
+      "tracking");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
       ->transform(oneOf<sphc_localizer_mode>({{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}}))

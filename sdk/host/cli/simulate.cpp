@@ -28,7 +28,7 @@ struct SimulateOptions {
   std::optional<double> lap_s;
   std::string with, cameras = "headset";
   const CLI::Option *exposure = nullptr;
-  double accelerometer_hz = 0;
+  double accelerometer_hz = 0, poses_hz = 0;
   bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
 
@@ -78,41 +78,77 @@ sphc_rig calibrationOf(const sphc_simulated *simulated) {
   return rig;
 }
 
-// One capture to disk, with the exact pose when it is a colour image.
-void keep(const sphc_capture &capture, const sphc_simulated *simulated, RecordingOut *out) {
-  out->add(capture);
-  if (capture.stream != SPHC_STREAM_COLOR) return;
+sphc_rigid poseAt(const sphc_simulated *simulated, int64_t time_ns) {
   sphc_rigid pose;
-  orThrow("pose", [&](sphc_message *) { return sphc_simulated_pose_at(simulated, capture.time_ns, &pose); });
-  out->addPose(capture.time_ns, pose);
+  orThrow("pose", [&](sphc_message *) { return sphc_simulated_pose_at(simulated, time_ns, &pose); });
+  return pose;
 }
 
-// Measures at a rate from a time on; 0: never.
-class Accelerometer {
+// Times at a rate from a time on; none at a rate of 0.
+class Ticks {
  public:
-  Accelerometer(const sphc_simulated *simulated, double rate_hz, int64_t from_ns)
-      : simulated_(simulated), period_ns_(rate_hz > 0 ? 1e9 / rate_hz : 0), from_ns_(from_ns) {}
+  Ticks(double rate_hz, int64_t from_ns) : period_ns_(rate_hz > 0 ? 1e9 / rate_hz : 0), from_ns_(from_ns) {}
 
-  void writeUpTo(int64_t time_ns, RecordingOut *out) {
+  // Calls add(time_ns) for each up to this time that has not been.
+  template <typename Add>
+  void upTo(int64_t time_ns, const Add &add) {
     while (period_ns_ > 0) {
-      const int64_t next_ns = from_ns_ + std::llround(period_ns_ * static_cast<double>(written_));
+      const int64_t next_ns = from_ns_ + std::llround(period_ns_ * static_cast<double>(count_));
       if (next_ns > time_ns) return;
-      Acceleration felt;
-      orThrow("accelerometer",
-              [&](sphc_message *) { return sphc_simulated_felt_at(simulated_, next_ns, felt.mps2); });
-      out->addAcceleration(next_ns, felt);
-      ++written_;
+      add(next_ns);
+      ++count_;
     }
   }
 
  private:
-  const sphc_simulated *simulated_;
   double period_ns_;
   int64_t from_ns_;
-  uint64_t written_ = 0;
+  uint64_t count_ = 0;
 };
 
-void record(sphc_simulated *simulated, const Interrupt &interrupt, Accelerometer accelerometer, RecordingOut *out) {
+// To disk: captures, each colour image with its exact pose, and what has a rate of its own, in order of time.
+class Writer {
+ public:
+  Writer(const sphc_simulated *simulated, const SimulateOptions &options, RecordingOut *out)
+      : simulated_(simulated),
+        out_(*out),
+        accelerations_(options.accelerometer_hz, options.config.start_time_ns),
+        poses_(options.poses_hz, std::max<int64_t>(options.config.start_time_ns - kPosesBeyondNs, 0)) {}
+
+  void add(const sphc_capture &capture) {
+    accelerations_.upTo(capture.time_ns, [&](int64_t time_ns) {
+      Acceleration felt;
+      orThrow("accelerometer",
+              [&](sphc_message *) { return sphc_simulated_felt_at(simulated_, time_ns, felt.mps2); });
+      out_.addAcceleration(time_ns, felt);
+    });
+    addPosesUpTo(capture.time_ns);
+    out_.add(capture);
+    if (capture.stream == SPHC_STREAM_COLOR) addPose(capture.time_ns);
+  }
+  // After the last capture.
+  void end() { addPosesUpTo(last_pose_ns_ + kPosesBeyondNs); }
+
+ private:
+  static constexpr int64_t kPosesBeyondNs = 100000000;  // before the first image and after the last
+
+  void addPosesUpTo(int64_t end_ns) {
+    poses_.upTo(end_ns - 1, [&](int64_t time_ns) { addPose(time_ns); });
+  }
+  // Once, where an image and a tick have the same time.
+  void addPose(int64_t time_ns) {
+    if (time_ns == last_pose_ns_) return;
+    out_.addPose(time_ns, poseAt(simulated_, time_ns));
+    last_pose_ns_ = time_ns;
+  }
+
+  const sphc_simulated *simulated_;
+  RecordingOut &out_;
+  Ticks accelerations_, poses_;
+  int64_t last_pose_ns_ = INT64_MIN;
+};
+
+void record(sphc_simulated *simulated, const Interrupt &interrupt, Writer writer) {
   sphc_source source = {};
   source.struct_size = sizeof source;
   orThrow("source", [&](sphc_message *) { return sphc_simulated_source(simulated, &source); });
@@ -127,13 +163,13 @@ void record(sphc_simulated *simulated, const Interrupt &interrupt, Accelerometer
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
   while (check(source.acquire(source.self, 0, &capture)) != SPHC_END) {
-    accelerometer.writeUpTo(capture.time_ns, out);
-    keep(capture, simulated, out);
+    writer.add(capture);
     if (capture.stream == SPHC_STREAM_DEPTH) bar.show(capture.sequence + 1, total);
     source.release(source.self, &capture);
     interrupt.throwIfCame();
   }
   source.stop(source.self);
+  writer.end();
 }
 
 // Which frames belong to which lap, so that the hint after the run can be copied.
@@ -158,7 +194,7 @@ int simulate(const SimulateOptions &options, const Console &console) {
   const Simulated simulated = madeOfOptions([&] { return openHeadset(config); });
   const Interrupt interrupt;  // from before there is a file
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
-  record(simulated.get(), interrupt, {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
+  record(simulated.get(), interrupt, {simulated.get(), options, out.get()});
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + counted(config.frame_count, "frame") + " to " + options.out + " in " +
@@ -270,6 +306,11 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("N");
   app->add_option("--accelerometer", options->accelerometer_hz,
                   "Also what an accelerometer measures, so many times a second [none]; X.mcap keeps it")
+      ->check(between(0.1, 2000))
+      ->type_name("HZ");
+  app->add_option(
+         "--poses", options->poses_hz,
+         "Also exact poses between the images, so many times a second [none]: as a headset's tracking tells")
       ->check(between(0.1, 2000))
       ->type_name("HZ");
   auto *ideal =

@@ -44,7 +44,7 @@ FixedInImage::RecentSpot *FixedInImage::find(size_t cell, const Observation &see
   for (const size_t near : around(cell))
     for (RecentSpot &spot : recent_[near - first_cell_]) {
       if (frame_ - spot.last_frame > kForgetFrames || spot.last_frame == frame_) continue;
-      if ((spot.pixel_px - seen.pixel_px).norm() > kSamePixelPx) continue;
+      if ((spot.pixel_px - seen.image_px).norm() > kSamePixelPx) continue;
       const double distance = descriptorDistance(spot.descriptor, seen.descriptor);
       if (distance >= nearest) continue;
       nearest = distance;
@@ -58,7 +58,7 @@ void FixedInImage::addSpot(size_t cell, Observation *seen) {
   const auto is_old = [this](const RecentSpot &spot) { return frame_ - spot.last_frame > kForgetFrames; };
   here.erase(std::remove_if(here.begin(), here.end(), is_old), here.end());
   seen->spot = static_cast<uint32_t>(spots_.size());
-  here.push_back({seen->spot, frame_, seen->pixel_px, seen->position_m, seen->descriptor});
+  here.push_back({seen->spot, frame_, seen->image_px, seen->position_m, seen->descriptor});
   spots_.push_back({cell, 1, 0});
 }
 
@@ -73,7 +73,7 @@ bool FixedInImage::isSeenElsewhere(const Rigid &camera_from_world, const RecentS
 void FixedInImage::add(const Rigid &camera_from_world, std::vector<Observation> *observations) {
   ++frame_;
   for (Observation &seen : *observations) {
-    const size_t cell = cellOf(seen.pixel_px);
+    const size_t cell = cellOf(seen.image_px);
     RecentSpot *spot = find(cell, seen);
     if (!spot) {
       addSpot(cell, &seen);

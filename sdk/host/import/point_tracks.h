@@ -18,7 +18,8 @@ struct Observation {
   Vector3 position_m;   // world
   Vector3 camera_m;     // where the camera was, world
   Matrix3 information;  // inverse covariance of position_m, world axes
-  Vector2 pixel_px;
+  Vector2 image_px;     // where the image shows it
+  Vector2 pixel_px;     // where it would, had all rows been exposed at once
   double depth_m;
   double sigma_m;         // along the view
   double metric_scale_m;  // size of the keypoint's Gaussian in space

@@ -138,7 +138,7 @@ PoseScaleCheck::Votes PoseScaleCheck::compare(const Rigid &world_from_camera,
     const Vector3 seen_m = first_from_world * first_[i].position_m;
     const Vector3 turned_m = now_from_first.rotation * seen_m;
     const bool is_told = agrees(turned_m + now_from_first.translation_m, *match);
-    votes.fixed_in_image += !is_told && (match->pixel_px - first_[i].pixel_px).norm() < kFixedPx;
+    votes.fixed_in_image += !is_told && (match->image_px - first_[i].image_px).norm() < kFixedPx;
     for (int k = 0; k < kBins; ++k) {
       const double multiple = std::exp(kLogStep * (k - kSteps));
       votes.multiples[static_cast<size_t>(k)] += agrees(turned_m + multiple * now_from_first.translation_m, *match);

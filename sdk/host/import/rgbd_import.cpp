@@ -11,6 +11,7 @@
 #include "host/import/moving_things.h"
 #include "host/import/point_tracks.h"
 #include "host/import/pose_scale.h"
+#include "host/import/rolling_rows.h"
 #include "runtime/stages/align/sparse.h"
 
 namespace sphc::host {
@@ -37,21 +38,25 @@ class FrameDescriber {
   // camera_from_camera_at_depth: from the colour camera where it was when depth was taken, to where it was when
   // colour was.
   std::vector<Observation> describe(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
-                                    const Rigid &camera_from_camera_at_depth, uint32_t *keypoints) {
+                                    const Rigid &camera_from_camera_at_depth, const RollingRows &rows,
+                                    uint32_t *keypoints) {
     aligner_.setCameras(camera_, depth_camera_, camera_from_camera_at_depth * color_from_depth_);
     features_.extract(grayOf(frame.color, &gray_));
     *keypoints = features_.count();
     const ImageView<uint16_t> depth = depthOf(frame.depth);
     std::vector<Observation> observations;
     for (uint32_t i = 0; i < *keypoints; ++i) {
-      const Vector2 pixel = features_.pixel(i);
+      Vector2 pixel = features_.pixel(i);
       Vector3 point;
       double sigma = 0;
       if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
+      // Depth was measured at one time for all rows.
+      if (rows.roll() && !(rows.toMiddle(point, &pixel) && aligner_.lift(depth, pixel, &point, &sigma))) continue;
       Observation o;
       o.position_m = world_from_camera * point;
       o.camera_m = world_from_camera.translation_m;
       o.information = information(point, sigma, world_from_camera.rotation);
+      o.image_px = features_.pixel(i);
       o.pixel_px = pixel;
       o.depth_m = point.z();
       o.sigma_m = sigma;
@@ -140,12 +145,13 @@ class Importer {
   void add(const RgbdSource &source) {
     const sphc_rig &rig = source.reader->calibration();
     FrameDescriber describer(rig, options_);
+    RollingRows rows(describer.camera(), options_.row_time_ns);
     FrameConsistency consistency(rig);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
     fixed_.begin(describer.camera());
     scale_.begin(describer.camera(), posedFrames(source));
     for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
-      if (takesPart(source, i)) addFrame(source, i, &describer, &consistency);
+      if (takesPart(source, i)) addFrame(source, i, &describer, &rows, &consistency);
       if (progress_) progress_(++done_, total_);
     }
   }
@@ -159,7 +165,8 @@ class Importer {
     return frames;
   }
 
-  void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer, FrameConsistency *consistency) {
+  void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer, RollingRows *rows,
+                FrameConsistency *consistency) {
     const std::optional<sphc_rigid> pose = poseAt(source, source.reader->colorOf(i).time_ns);
     std::string why;
     const std::optional<sphc_localizer_frame> frame = pose ? source.reader->tryRead(i, &why) : std::nullopt;
@@ -173,7 +180,11 @@ class Importer {
       const Rigid camera_from_camera_at_depth = cameraFromCameraAtDepth(source, *frame, world_from_camera);
       summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
                                                         frame->depth_time_ns, camera_from_camera_at_depth));
-      place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, describer);
+      if (rows->roll())
+        summary_->frames_unrolled += !rows->begin(frame->color_time_ns, *pose,
+                                                  [&source](int64_t time_ns) { return poseAt(source, time_ns); });
+      place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, *rows,
+            describer);
     }
   }
 
@@ -192,10 +203,10 @@ class Importer {
   }
 
   void place(const sphc_localizer_frame &frame, uint32_t sequence, const Rigid &world_from_camera,
-             const Rigid &camera_from_camera_at_depth, FrameDescriber *describer) {
+             const Rigid &camera_from_camera_at_depth, const RollingRows &rows, FrameDescriber *describer) {
     uint32_t keypoints = 0;
     std::vector<Observation> observations =
-        describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
+        describer->describe(frame, world_from_camera, camera_from_camera_at_depth, rows, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
     scale_.add(sequence, world_from_camera, observations);
     if (!options_.keep_moving) {
@@ -239,6 +250,10 @@ std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
                         " was taken more than 10 ms before or after colour, and no poses near enough in time tell "
                         "how the camera moved between, so points lie beside their places; record poses at 20 Hz or "
                         "more, or take both images at one time");
+  if (summary.frames_unrolled)
+    sentences.push_back("no poses near enough in time tell how the camera moved while the rows of " +
+                        counted(summary.frames_unrolled, "frame") +
+                        " were exposed, so points lie beside their places; record poses at 20 Hz or more");
   if (summary.frames_empty)
     sentences.push_back(counted(summary.frames_empty, "frame") +
                         " gave nothing: too dark, too blurred, or without depth where there is something to see");

@@ -19,7 +19,8 @@ struct RgbdImportOptions {
   double depth_min_m = 0.3, depth_max_m = 6.0;
   double merge_pixels = 4;               // an observation joins a point that reprojects within this
   double max_descriptor_distance = 260;  // and whose descriptor is within this (L2 of bytes)
-  bool keep_moving = false;              // points on people, hands, feet, what was moved and what is gone
+  int64_t row_time_ns = 0;   // of a rolling shutter: from a row's exposure to that of the row below; 0: at once
+  bool keep_moving = false;  // points on people, hands, feet, what was moved and what is gone
 };
 
 // A recording, and what of it a model is made of.
@@ -62,6 +63,7 @@ struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
   uint32_t frames_empty = 0;      // of those used, without a keypoint that has depth
   uint32_t frames_apart = 0;      // of those used, whose depth was taken elsewhere, nobody knows where
+  uint32_t frames_unrolled = 0;   // of those used, whose rows were taken for exposed at once for lack of poses
   FaultCounts frames_with_fault;  // of those used
   std::string first_unreadable;   // which, and why
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
@@ -79,9 +81,9 @@ std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary);
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
 // All frames that have a pose take part.  Depth that was taken at another time than colour is used from where its
-// camera was then, if poses tell; else as if it had not moved.  Of several recordings in one world, the oldest
-// comes first: what a later one sees through is gone.  Throws std::runtime_error, with cause and cure, when no map
-// can come of it.
+// camera was then, if poses tell; else as if it had not moved; and so are rows of a rolling shutter.  Of several
+// recordings in one world, the oldest comes first: what a later one sees through is gone.  Throws
+// std::runtime_error, with cause and cure, when no map can come of it.
 PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
                       const Progress &progress, RgbdImportSummary *summary);
 

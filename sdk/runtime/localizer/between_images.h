@@ -1,4 +1,5 @@
-// What is not known of how the camera moved between the colour image of a frame and its other images.
+// What is not known of how the camera moved between the colour image of a frame and its other images, and while the
+// rows of a rolling shutter were exposed.
 #pragma once
 #include <algorithm>
 
@@ -16,7 +17,7 @@ struct BetweenImages {
   // What such a frame says of points and sensors is not kept.
   bool areApart() const { return shift_sigma_m > tuning::kSpeedApart * tuning::kMostTogetherS; }
 
-  // An image that odometry takes to the time of colour: points turn about the camera, some metres away.
+  // An image, or rows, taken to the time of colour: points turn about the camera, some metres away.
   void add(const Way &way) { widen(way.turn_sigma_rad, hypotOf(way.shift_sigma_m, kPointsM * way.turn_sigma_rad)); }
   // An image so far in time from colour, of which nothing tells the way.
   void addUnknown(double seconds) {

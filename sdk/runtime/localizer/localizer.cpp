@@ -137,7 +137,7 @@ void Localizer::follow(const FrameInput &frame) {
 LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
   LocalizerResult result;
   result.depth = calibrator_.current();
-  const RigOfFrame rig = rigOfFrame(config_, frame, front_.seenCameras(), tracker());
+  const RigOfFrame rig = rigOfFrame(config_, frame, front_.seenCameras(), tracker(), rateAt(frame.color_time_ns));
   between_ = rig.between;
   const DepthImages depth = read(frame.depth);
   const DepthPlace &first_depth = rig.cameras.depth[0];
@@ -173,6 +173,16 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
 bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
   Motion motion;
   return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
+}
+
+// By odometry, or else from pose to pose.
+CameraRate Localizer::rateAt(int64_t time_ns) const {
+  CameraRate rate;
+  MovedPose moved;
+  if (!config_.tracks || tracker_.rate(&rate) || !predict(time_ns, &moved)) return rate;
+  const Matrix3 &camera_from_map = moved.camera_from_map.rotation;
+  return {-(camera_from_map * moved.angular_velocity_in_map_rad_s), -(camera_from_map * moved.velocity_in_map_m_s),
+          moved.angular_velocity_sigma_rad_s, moved.velocity_sigma_m_s};
 }
 
 DepthImages Localizer::read(const DepthViews &views) {

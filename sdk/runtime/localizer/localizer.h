@@ -68,6 +68,7 @@ class Localizer {
  private:
   DepthImages read(const DepthViews &views);
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
+  CameraRate rateAt(int64_t time_ns) const;
   void follow(const FrameInput &frame);
   LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);
   const Tracker *tracker() const { return config_.tracks ? &tracker_ : nullptr; }

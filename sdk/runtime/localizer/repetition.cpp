@@ -121,11 +121,11 @@ bool Repetition::findCommonestOf(Part moves, Watch *watch, Common *commonest) co
   return true;
 }
 
-// Of the moves that were found those that are no multiple of this one.
+// Of the moves that were found those of another direction: two tiles on and three are the same pattern.
 void Repetition::keepOthersThan(const Vector3 &move_m) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < found_; ++i) {
-    const double times = floorOf(found_m_[i].dot(move_m) / move_m.squaredNorm() + 0.5);
+    const double times = found_m_[i].dot(move_m) / move_m.squaredNorm();
     if (!areEqual(found_m_[i], times * move_m, 2 * kSameMoveM)) found_m_[kept++] = found_m_[i];
   }
   found_ = kept;

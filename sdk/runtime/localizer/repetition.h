@@ -20,7 +20,7 @@ class Repetition {
   // is no time for it.  The frame is borrowed.
   bool look(const FrontEnd &front, const Deadline &deadline);
 
-  // In the camera's frame, metres, the commonest first; one of each pair of opposite moves, no multiple of another.
+  // In the camera's frame, metres, the commonest first, each of a direction of its own.
   Span<const Vector3> moves_m() const { return {moves_m_.begin(), moves_m_.size()}; }
   // Is there the like of this keypoint, which has depth, elsewhere in the frame?
   bool repeats(uint32_t keypoint) const;

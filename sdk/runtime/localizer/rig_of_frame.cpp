@@ -24,16 +24,23 @@ class WayToColor {
   const Tracker *tracker_;
 };
 
+// What is not known of the camera's way from the middle row of an image to its first, or to its last.
+Way unknownOfRows(const Camera &camera, double row_time_s, const CameraRate &rate) {
+  const double half_s = 0.5 * camera.height() * absOf(row_time_s);
+  return {{}, rate.turn_sigma_rad_s * half_s, rate.shift_sigma_m_s * half_s};
+}
+
 }  // namespace
 
 RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, SeenCameras seen,
-                      const Tracker *tracker) {
+                      const Tracker *tracker, const CameraRate &rate) {
   RigOfFrame rig;
   BetweenImages unused;  // of an image that is not there
   const WayToColor way(frame.color_time_ns, tracker);
   rig.cameras.color_camera = frame.color_camera.value_or(config.color_camera);
   rig.cameras.color_row_time_s = config.color_row_time_s;
-  if (tracker) rig.cameras.motion = tracker->rate();
+  rig.cameras.motion = rate;
+  rig.between.add(unknownOfRows(rig.cameras.color_camera, config.color_row_time_s, rate));
   for (size_t i = 0; i < frame.further.size(); ++i) {
     const FurtherView &view = frame.further[i];
     const RigCamera &known = config.further[i];
@@ -41,6 +48,7 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, Se
                               way.place(view.time_ns, view.color_from_camera.value_or(known.color_from_camera),
                                         seen & seenBit(i) ? &rig.between : &unused),
                               known.row_time_s});
+    if (seen & seenBit(i)) rig.between.add(unknownOfRows(rig.cameras.further[i].camera, known.row_time_s, rate));
   }
   for (size_t i = 0; i < frame.depth.size(); ++i) {
     const DepthView &view = frame.depth[i];

@@ -9,13 +9,14 @@ namespace sphc {
 
 struct RigOfFrame {
   FrameRig cameras;
-  BetweenImages between;              // colour and all images that are there
+  BetweenImages between;              // colour and all images that are there, and rows of a rolling shutter
   BetweenImages between_first_depth;  // colour and the first depth image
 };
 
-// Each frame, after the tracker has advanced to it.  Without a tracker (null) nothing tells how the camera moves.
-// `seen`: images of further cameras may be gone by now.
+// Each frame, after the tracker has advanced to it.  Without a tracker (null) nothing tells how the camera came
+// from image to image.  `rate`: how it moves while rows are exposed.  `seen`: images of further cameras may be gone
+// by now.
 RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, SeenCameras seen,
-                      const Tracker *tracker);
+                      const Tracker *tracker, const CameraRate &rate);
 
 }  // namespace sphc

@@ -84,15 +84,14 @@ bool Tracker::waySince(int64_t then_ns, Way *way) const {
                              : steps_.wayFromAhead(elapsedNs(time_ns_, then_ns), way);
 }
 
-CameraRate Tracker::rate() const {
+bool Tracker::rate(CameraRate *rate) const {
   constexpr uint64_t kApartNs = 5000000;
-  CameraRate rate;
   Way way;
   const auto then_ns = static_cast<int64_t>(static_cast<uint64_t>(time_ns_) - kApartNs);  // times may be any
-  if (!waySince(then_ns, &way)) return rate;
-  rate.turn_rad_s = vectorFromRotation(way.now_from_then.rotation) / secondsOf(kApartNs);
-  rate.shift_m_s = way.now_from_then.translation_m / secondsOf(kApartNs);
-  return rate;
+  if (!waySince(then_ns, &way)) return false;
+  *rate = {vectorFromRotation(way.now_from_then.rotation) / secondsOf(kApartNs),
+           way.now_from_then.translation_m / secondsOf(kApartNs), 0, 0};
+  return true;
 }
 
 bool Tracker::predict(Prediction *prediction) const {

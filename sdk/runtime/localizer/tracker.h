@@ -39,9 +39,11 @@ struct Prediction {
 tuning::PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m,
                                   const tuning::PoseBounds &least = tuning::kNoJump);
 
-// How a point that stands still moves in the camera's own frame: by turn x point + shift, a second.
+// How a point that stands still moves in the camera's own frame: by turn x point + shift, a second; 1 sigma an
+// axis. By itself that of a head of which nothing is known.
 struct CameraRate {
   Vector3 turn_rad_s = Vector3::Zero(), shift_m_s = Vector3::Zero();
+  double turn_sigma_rad_s = tuning::kTurnRate, shift_sigma_m_s = tuning::kSpeed;
 };
 
 // The same camera in another map; false where it is in that map already, or where it is not known how the two lie.
@@ -78,8 +80,8 @@ class Tracker {
   // How the camera moved since another time near this frame's, by the odometry of the steps before (RecentSteps);
   // false where that says nothing.
   bool waySince(int64_t then_ns, Way *way) const;
-  // At this frame, by odometry; zero where that says nothing.
-  CameraRate rate() const;
+  // At this frame, by odometry, taken for exact; false where that says nothing.
+  bool rate(CameraRate *rate) const;
   // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
   // every pose that was accepted.
   bool motion(const Trail &trail, Motion *motion) const;

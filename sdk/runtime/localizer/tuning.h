@@ -105,8 +105,9 @@ constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the ei
 // squared distance of descriptors below this.  Chosen.
 constexpr uint32_t kAskedForLike = 400, kMostDistance2OfLike = 60000;
 constexpr double kLeastMoveM = 0.10, kSameMoveM = 0.03;
-// So many equal moves are a pattern; a floor has two periods.  Chosen: carpets show 20 to 60, a kitchen up to 30.
-constexpr uint32_t kFewestMoves = 10, kMostMoves = 2;
+// So many equal moves are a pattern; a floor has two directions, and diagonals (decision 105).  Chosen: carpets show
+// 20 to 60, a kitchen up to 30.
+constexpr uint32_t kFewestMoves = 10, kMostMoves = 3;
 // What is found without all that repeats replaces a pose of a smaller gain where it is another one.  Chosen.
 constexpr PoseBounds kSamePoseUnrepeated = {0.05, degrees(2.5)};
 // A pose rests on a pattern where fewer of its inliers than this, and less than this share, are of what does not

@@ -151,6 +151,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"frames_unreadable", summary.frames_unreadable},
                     {"frames_empty", summary.frames_empty},
                     {"frames_apart", summary.frames_apart},
+                    {"frames_unrolled", summary.frames_unrolled},
                     {"keypoints", summary.keypoints},
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},
@@ -191,6 +192,12 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addRecordingOptions(app, &source->recording)->required(false);
   addMappingOptions(app, &source->import);
+  app->add_option("--row-time-ns", source->import.row_time_ns,
+                  "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n"
+                  "needs poses at 20 Hz or more")
+      ->capture_default_str()
+      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+      ->group(kMappingGroup);
   addColmapOptions(app, source);
   auto *model =
       app->add_option("--model", source->model, "Point model to take in place of a recording: from --save-model")

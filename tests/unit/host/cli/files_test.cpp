@@ -413,19 +413,6 @@ TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
   EXPECT_EQ(nlohmann::json::parse(single.out)["settings"]["odometry"], "played");
 }
 
-TEST_F(FilesTest, ARowTimeThatChangesNothingIsSaid) {
-  const std::string localize = "localize --json --row-time-ns -30000 -r " + at("walk") + " -m " + at("room.sphc"),
-                    note = "--row-time-ns: how the camera moved";
-  for (const char *arguments : {"", " --odometry --mode single"})
-    EXPECT_THAT(runCommand(localize + arguments).err, HasSubstr(note)) << arguments;
-  const Answer used = runCommand(localize + " --odometry");
-  EXPECT_THAT(used.err, testing::Not(HasSubstr(note)));
-  EXPECT_EQ(nlohmann::json::parse(used.out)["settings"]["color_row_time_ns"], "-30000");
-  const Answer refused = runCommand("localize --row-time-ns 2000000 -r " + at("walk") + " -m " + at("room.sphc"));
-  EXPECT_EQ(refused.exit_code, kExitUsage) << refused.err;
-  EXPECT_THAT(refused.err, HasSubstr("--row-time-ns"));
-}
-
 TEST_F(FilesTest, PosesOfAnotherClockAreSaid) {
   fs::copy(at("walk"), at("apart"), fs::copy_options::recursive);
   put("apart/groundtruth.txt", "1700000000.5 0 0 0 0 0 0 1\n1700000001.5 0 0 0 0 0 0 1\n");

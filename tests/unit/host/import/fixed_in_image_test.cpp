@@ -57,6 +57,7 @@ class FixedInImageTest : public testing::Test {
     const bool is_seen = camera_.project(point_m, &o.pixel_px) && o.pixel_px.x() >= 0 && o.pixel_px.y() >= 0 &&
                          o.pixel_px.x() < camera_.width() && o.pixel_px.y() < camera_.height();
     if (!is_seen) return;
+    o.image_px = o.pixel_px;
     o.position_m = world_from_camera * point_m;
     o.camera_m = world_from_camera.translation_m;
     o.depth_m = point_m.z();

@@ -39,6 +39,7 @@ PoseScaleCheck checkOf(const TellingOfFrame &tell, double step_m, uint32_t frame
       Observation o = {};
       if (point_m.z() < 0.1 || !camera.project(point_m, &o.pixel_px)) continue;
       if (o.pixel_px.x() < 0 || o.pixel_px.y() < 0 || o.pixel_px.x() >= 320 || o.pixel_px.y() >= 240) continue;
+      o.image_px = o.pixel_px;
       o.position_m = told * point_m;
       o.depth_m = point_m.z();
       o.descriptor = looks[i];

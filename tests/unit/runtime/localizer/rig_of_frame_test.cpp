@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scene.h"
+
 namespace sphc {
 namespace {
 
@@ -37,7 +39,7 @@ FrameInput frameAt(int64_t time_ns) {
 double xOf(const Rigid &transform) { return transform.translation_m.x(); }
 
 TEST(RigOfFrame, OfOneTimeIsAsItWasBuilt) {
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frameAt(kStep), seenBit(0), nullptr);
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frameAt(kStep), seenBit(0), nullptr, {});
   EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
   EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
   EXPECT_EQ(rig.between.shift_sigma_m, 0);
@@ -47,7 +49,7 @@ TEST(RigOfFrame, OfOneTimeIsAsItWasBuilt) {
 TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
   FrameInput frame = frameAt(10 * kStep);
   frame.depth[0].time_ns -= 3 * kStep;
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, seenBit(0), nullptr);
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, seenBit(0), nullptr, {});
   EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
   EXPECT_NEAR(rig.between.apart_s, 0.099, 1e-9);
   EXPECT_TRUE(rig.between.areApart());
@@ -58,12 +60,12 @@ TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
 TEST(RigOfFrame, AnImageThatIsNotThereDoesNotCount) {
   FrameInput frame = frameAt(10 * kStep);
   frame.further[0].time_ns = 0;
-  EXPECT_TRUE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr).between.areApart());
-  EXPECT_FALSE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr).between_first_depth.areApart());
-  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr).between.apart_s, 0);
+  EXPECT_TRUE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr, {}).between.areApart());
+  EXPECT_FALSE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr, {}).between_first_depth.areApart());
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr, {}).between.apart_s, 0);
   frame.depth[0].time_ns = 0;
   frame.depth[0].depth.data = nullptr;
-  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr).between.apart_s, 0);
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr, {}).between.apart_s, 0);
 }
 
 // The camera goes 1 cm a frame along x, so what it saw two frames ago lies 2 cm behind.
@@ -75,13 +77,38 @@ TEST(RigOfFrame, OdometryTakesImagesToTheTimeOfColour) {
   }
   FrameInput frame = frameAt(4 * kStep);
   frame.depth[0].time_ns -= 2 * kStep;
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, seenBit(0), &tracker);
+  const RigOfFrame rig =
+      rigOfFrame(configOfThree(), frame, seenBit(0), &tracker, {Vector3::Zero(), Vector3(0.3, 0, 0), 0, 0});
   EXPECT_NEAR(xOf(rig.cameras.depth[0].color_from_depth), 0.04 - 0.02, 1e-9);
   EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
   EXPECT_EQ(rig.between.apart_s, 0);
   EXPECT_GT(rig.between.shift_sigma_m, 0.001);
   EXPECT_FALSE(rig.between.areApart());
-  EXPECT_NEAR(rig.cameras.motion.shift_m_s.norm(), 0.01 / (1e-9 * kStep), 1e-6);
+  EXPECT_EQ(rig.cameras.motion.shift_m_s.x(), 0.3);
+}
+
+// Of the camera's rate its sigma counts, for half of the time from the first row to the last.
+TEST(RigOfFrame, WhatIsUnknownOfTheRateCountsWhileRowsAreExposed) {
+  constexpr double kHeight = 480, kHeightOfFurther = 360;
+  LocalizerConfig config = configOfThree();
+  config.color_camera = Camera(test::pinhole(640, kHeight, 500));
+  config.further[0].camera = Camera(test::pinhole(480, kHeightOfFurther, 400));
+  const CameraRate rate = {Vector3::Zero(), Vector3::Zero(), 0.4, 0.3};
+  const auto between = [&](SeenCameras seen) {
+    return rigOfFrame(config, frameAt(kStep), seen, nullptr, rate).between;
+  };
+  EXPECT_EQ(between(seenBit(0)).turn_sigma_rad, 0) << "all rows at once";
+  constexpr double half_s = kHeight / 2 * 20e-6;
+  for (const double row_time_s : {20e-6, -20e-6}) {
+    config.color_row_time_s = row_time_s;
+    EXPECT_NEAR(between(0).turn_sigma_rad, 0.4 * half_s, 1e-12);
+    EXPECT_NEAR(between(0).shift_sigma_m, 0.5 * half_s, 1e-12) << "and the turn's, a metre away";
+  }
+  config.further[0].row_time_s = 80e-6;
+  EXPECT_NEAR(between(seenBit(0)).turn_sigma_rad, 0.4 * kHeightOfFurther / 2 * 80e-6, 1e-12);
+  EXPECT_NEAR(between(0).turn_sigma_rad, 0.4 * half_s, 1e-12) << "it is not there";
+  EXPECT_GT(rigOfFrame(config, frameAt(kStep), 0, nullptr, {}).between.turn_sigma_rad, between(0).turn_sigma_rad)
+      << "a head of which nothing is known";
 }
 
 }  // namespace
