@@ -555,8 +555,9 @@ typedef struct sphc_localizer_config {
   const sphc_localizer_camera *cameras; /* null where there are none */
   uint32_t camera_count;                /* 0 to SPHC_CAMERAS_MAX - 1 */
   uint32_t reserved3;
-  /* Of a rolling shutter: from a row's exposure to that of the row below it.  Where odometry is given, in
-   * SPHC_MODE_TRACKING, rows are taken to the time of the middle one, which is the image's.  0: all at once. */
+  /* Of a rolling shutter: from a row's exposure to that of the row below it.  In SPHC_MODE_TRACKING rows are taken
+   * to the time of the middle one, which is the image's, by odometry, or else by how the camera moved from pose to
+   * pose; a pose is less sure by what is not known of that motion.  0: all at once. */
   int64_t color_row_time_ns;
 
   /* Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is set. null:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/base/elementary.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc {

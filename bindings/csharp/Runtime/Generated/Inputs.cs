@@ -112,9 +112,9 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>What the cameras see; maps of another band are refused.</summary>
   public Band ColorBand { get { return raw.color_band; } set { raw.color_band = value; } }
 
-  /// <summary>Of a rolling shutter: from a row's exposure to that of the row below it. Where odometry is given, in
-  /// LocalizerMode.Tracking, rows are taken to the time of the middle one, which is the image's. 0: all at
-  /// once.</summary>
+  /// <summary>Of a rolling shutter: from a row's exposure to that of the row below it. In LocalizerMode.Tracking
+  /// rows are taken to the time of the middle one, which is the image's, by odometry, or else by how the camera
+  /// moved from pose to pose; a pose is less sure by what is not known of that motion. 0: all at once.</summary>
   public long ColorRowTimeNs { get { return raw.color_row_time_ns; } set { raw.color_row_time_ns = value; } }
 }
 

@@ -38,6 +38,19 @@ TEST_F(RepetitionTest, FindsThePeriodOfAPattern) {
   }
 }
 
+// Of a pattern that is finer than the least move, twice and three times its period are common.
+TEST_F(RepetitionTest, MovesHaveDirectionsOfTheirOwn) {
+  for (const uint32_t period_px : {12u, 16u, 20u, 24u}) {
+    parts_.seeRepeated(0, period_px);
+    ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+    const Span<const Vector3> moves_m = parts_.repetition.moves_m();
+    ASSERT_FALSE(moves_m.empty()) << period_px;
+    for (size_t i = 1; i < moves_m.size(); ++i)
+      for (size_t k = 0; k < i; ++k)
+        EXPECT_GT(moves_m[k].cross(moves_m[i]).norm() / moves_m[k].norm(), tuning::kSameMoveM) << period_px;
+  }
+}
+
 TEST_F(RepetitionTest, SaysWhatRepeats) {
   const auto repeating = [&] {
     uint32_t count = 0;
