@@ -77,9 +77,8 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
 
-void noteUselessRowTime(const LocalizeOptions &options, const Console &console) {
-  if (options.config.color_row_time_ns == 0) return;
-  if (options.config.mode == SPHC_MODE_TRACKING) return;
+void noteRowsOfSingleFrames(const LocalizeOptions &options, const Console &console) {
+  if (options.config.color_row_time_ns == 0 || options.config.mode == SPHC_MODE_TRACKING) return;
   console.warn(
       "note: --row-time-ns: how the camera moves is not known in --mode single, so rows stay where they are; poses "
       "are less sure by that");
@@ -103,7 +102,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.reader = reader;
   input.deadline_us = options.deadline_us;
   if (options.odometry) noteUselessOdometry(options, *reader, console);
-  noteUselessRowTime(options, console);
+  noteRowsOfSingleFrames(options, console);
   notePosesOfOtherTimes(options, *reader, console);
   input.play_odometry = options.odometry;
   input.config = options.config;

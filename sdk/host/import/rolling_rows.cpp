@@ -6,7 +6,10 @@ namespace sphc::host {
 bool RollingRows::begin(int64_t time_ns, const sphc_rigid &world_from_camera, const Poses &poses) {
   turn_rad_ = shift_m_ = Vector3::Zero();
   const int64_t half_ns = row_time_ns_ * camera_.height() / 2;
-  const std::optional<sphc_rigid> at_first = poses(time_ns - half_ns), at_last = poses(time_ns + half_ns);
+  const auto after = [time_ns](int64_t ns) {  // without overflow: a recording has any times
+    return static_cast<int64_t>(static_cast<uint64_t>(time_ns) + static_cast<uint64_t>(ns));
+  };
+  const std::optional<sphc_rigid> at_first = poses(after(-half_ns)), at_last = poses(after(half_ns));
   if (!at_first && !at_last) return false;
   const Rigid world_from_first = rigidFromC(at_first.value_or(world_from_camera)),
               world_from_last = rigidFromC(at_last.value_or(world_from_camera));
