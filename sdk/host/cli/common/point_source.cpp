@@ -184,6 +184,12 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->capture_default_str()
       ->check(notNegative())
       ->group(kMappingGroup);
+  app->add_option("--row-time-ns", import->row_time_ns,
+                  "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n"
+                  "needs poses at 20 Hz or more")
+      ->capture_default_str()
+      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+      ->group(kMappingGroup);
   app->add_flag("--keep-moving", import->keep_moving,
                 "Keep points on people, hands, feet, things that were moved, and what is drawn over the image")
       ->group(kMappingGroup);
@@ -192,12 +198,6 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addRecordingOptions(app, &source->recording)->required(false);
   addMappingOptions(app, &source->import);
-  app->add_option("--row-time-ns", source->import.row_time_ns,
-                  "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n"
-                  "needs poses at 20 Hz or more")
-      ->capture_default_str()
-      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
-      ->group(kMappingGroup);
   addColmapOptions(app, source);
   auto *model =
       app->add_option("--model", source->model, "Point model to take in place of a recording: from --save-model")
