@@ -186,7 +186,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->group(kMappingGroup);
   app->add_option("--row-time-ns", import->row_time_ns,
                   "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n"
-                  "needs poses at 20 Hz or more")
+                  "needs poses (map: frames) at 20 Hz or more; tell it to localize too")
       ->capture_default_str()
       ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
       ->group(kMappingGroup);
