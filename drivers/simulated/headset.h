@@ -59,10 +59,11 @@ class Headset {
     uint32_t index, count;
   };
 
-  // Adds the light of one part of an exposure, to one sum a pixel: of an image that is exposed at once, of one
-  // whose rows are exposed one after another, of some rows.
+  // Adds the light of one part of an exposure, to one sum a pixel.
   void gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const;
+  // The same of an image whose rows are exposed one after another.
   void gatherRowByRow(const View &view, const Part &part, std::vector<Light> *lights) const;
+  // The same of the rows from `top` to before `bottom`.
   void gatherRows(const View &view, const Raster &raster, uint32_t top, uint32_t bottom,
                   std::vector<Light> *lights) const;
   // Of so many parts.

@@ -1,10 +1,12 @@
 // Further cameras of a rig through the C interface.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "tests/capi/answers.h"
@@ -342,14 +344,37 @@ TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeFromPoseToPose) {
   EXPECT_GT(errorOfRolling(0, false), 2 * error_m);
 }
 
-// What is not known of the rate makes the pose less sure; by odometry all is.
+// By what is not known of the rate.
 TEST(Cameras, ARollingShutterMakesPosesLessSure) {
-  const auto sigma = [](int64_t row_time_ns, bool with_odometry) {
+  const auto sigmas = [](int64_t row_time_ns, bool with_odometry) {
     double error_m = 0;
     const sphc_localizer_result result = lastOfRolling(row_time_ns, with_odometry, &error_m);
-    return std::sqrt(result.covariance[0]);
+    return std::make_pair(std::sqrt(result.covariance[0]), std::sqrt(result.covariance[21]));
   };
-  EXPECT_GT(sigma(kRollingRowNs, false), 1.5 * sigma(kRollingRowNs, true));
+  const auto untold = sigmas(0, false), told = sigmas(kRollingRowNs, false),
+             by_odometry = sigmas(kRollingRowNs, true);
+  EXPECT_GT(told.first, 1.2 * std::max(untold.first, by_odometry.first));
+  EXPECT_GT(told.second, 1.2 * std::max(untold.second, by_odometry.second));
+}
+
+// Frames that nothing is known of between them: the first, and one after a gap that motion does not reach over.
+TEST(Cameras, ARateOfLongAgoIsNoWorseThanNone) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  config.mode = SPHC_MODE_TRACKING;
+  config.color_row_time_ns = kRollingRowNs;
+  Session session(config);
+  double first_sigma_m = 0;
+  sphc_localizer_result result = spherecloud::emptyResult();
+  int64_t time_ns = 0;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const auto made = sphc::test::sceneFrame(config, i);
+    time_ns += i < 3 ? kRollingFrameNs : 900000000;
+    made->frame.color_time_ns = made->frame.depth_time_ns = time_ns;
+    EXPECT_EQ(session.process(made->frame, &result), SPHC_OK);
+    if (i == 0) first_sigma_m = std::sqrt(result.covariance[21]);
+  }
+  EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_LT(std::sqrt(result.covariance[21]), 1.1 * first_sigma_m);
 }
 
 struct BadConfig {

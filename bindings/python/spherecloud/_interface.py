@@ -326,7 +326,7 @@ class sphc_localizer_config(ctypes.Structure):
     reserved3: int
     # Of a rolling shutter: from a row's exposure to that of the row below it. In SPHC_MODE_TRACKING rows are taken
     # to the time of the middle one, which is the image's, by odometry, or else by how the camera moved from pose to
-    # pose; a pose is less sure by what is not known of that motion. 0: all at once.
+    # pose. In both modes a pose is less sure by what is not known of that motion. 0: all at once.
     color_row_time_ns: int
     # Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is set.
     # null: the calling thread does all. Called one to a few dozen times a frame, on the thread of the call, and

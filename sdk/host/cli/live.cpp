@@ -222,9 +222,7 @@ Command liveCommand(CLI::App *root) {
   addBandOption(app, &options->config.color_band,
                 "The light that the colour camera sees; a map must be of the same");
   addAmplitudeOption(app, &options->config.amplitude_min);
-  app->add_option("--row-time-ns", options->config.color_row_time_ns,
-                  "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign")
-      ->capture_default_str();
+  addRowTimeOption(app, &options->config.color_row_time_ns, "tell it to build too");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never")
       ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());

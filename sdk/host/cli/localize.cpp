@@ -80,8 +80,9 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
 void noteRowsOfSingleFrames(const LocalizeOptions &options, const Console &console) {
   if (options.config.color_row_time_ns == 0 || options.config.mode == SPHC_MODE_TRACKING) return;
   console.warn(
-      "note: --row-time-ns: how the camera moves is not known in --mode single, so rows stay where they are; poses "
-      "are less sure by that");
+      "note: --row-time-ns: how the camera moves is not known in --mode single, so rows stay where they are, and "
+      "poses "
+      "are less sure by that; --mode tracking straightens them");
 }
 
 // They would be neither truth nor odometry without a word.
@@ -261,9 +262,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
   addBandOption(app, &config->color_band, "The light that the colour camera sees; a map must be of the same")
       ->group("Localizer");
   addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
-  add("--row-time-ns", config->color_row_time_ns,
-      "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign; for --mode "
-      "tracking");
+  addRowTimeOption(app, &config->color_row_time_ns, "for --mode tracking; tell it to build too")
+      ->group("Localizer");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
       ->transform(oneOf<sphc_localizer_mode>({{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}}))

@@ -13,6 +13,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_out.h"
@@ -274,12 +275,7 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
           ->capture_default_str()
           ->check(between(0, 0.05))
           ->type_name("S");
-  app->add_option(
-         "--row-time-ns", config.color_row_time_ns,
-         "A rolling shutter: nanoseconds from a row of colour to the row below it, up to a million; 0: none")
-      ->capture_default_str()
-      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
-      ->type_name("NS");
+  addRowTimeOption(app, &config.color_row_time_ns, "0: all rows at once");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
       ->transform(wholeFrom(0))
@@ -308,9 +304,9 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
                   "Also what an accelerometer measures, so many times a second [none]; X.mcap keeps it")
       ->check(between(0.1, 2000))
       ->type_name("HZ");
-  app->add_option(
-         "--poses", options->poses_hz,
-         "Also exact poses between the images, so many times a second [none]: as a headset's tracking tells")
+  app->add_option("--poses", options->poses_hz,
+                  "Also exact poses, so many times a second, from 0.1 s before the first image to 0.1 s after "
+                  "the\nlast [none]")
       ->check(between(0.1, 2000))
       ->type_name("HZ");
   auto *ideal =

@@ -44,7 +44,7 @@ FixedInImage::RecentSpot *FixedInImage::find(size_t cell, const Observation &see
   for (const size_t near : around(cell))
     for (RecentSpot &spot : recent_[near - first_cell_]) {
       if (frame_ - spot.last_frame > kForgetFrames || spot.last_frame == frame_) continue;
-      if ((spot.pixel_px - seen.image_px).norm() > kSamePixelPx) continue;
+      if ((spot.image_px - seen.image_px).norm() > kSamePixelPx) continue;
       const double distance = descriptorDistance(spot.descriptor, seen.descriptor);
       if (distance >= nearest) continue;
       nearest = distance;
@@ -67,7 +67,7 @@ bool FixedInImage::isSeenElsewhere(const Rigid &camera_from_world, const RecentS
   const Vector3 point_m = camera_from_world * spot.position_m;
   Vector2 expected_px;
   if (point_m.z() < kNearestSeenM || !camera_.project(point_m, &expected_px)) return true;
-  return (expected_px - spot.pixel_px).norm() > kMovedRad * camera_.focal();
+  return (expected_px - spot.image_px).norm() > kMovedRad * camera_.focal();
 }
 
 void FixedInImage::add(const Rigid &camera_from_world, std::vector<Observation> *observations) {

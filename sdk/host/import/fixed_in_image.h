@@ -24,7 +24,7 @@ class FixedInImage {
   // One that the last frames saw.
   struct RecentSpot {
     uint32_t number, last_frame;
-    Vector2 pixel_px;
+    Vector2 image_px;
     Vector3 position_m;  // in the world, as when the camera last moved
     Descriptor descriptor;
   };

@@ -181,8 +181,8 @@ class Importer {
       summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
                                                         frame->depth_time_ns, camera_from_camera_at_depth));
       if (rows->roll())
-        summary_->frames_unrolled += !rows->begin(frame->color_time_ns, *pose,
-                                                  [&source](int64_t time_ns) { return poseAt(source, time_ns); });
+        summary_->frames_bent += !rows->begin(frame->color_time_ns, *pose,
+                                              [&source](int64_t time_ns) { return poseAt(source, time_ns); });
       place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, *rows,
             describer);
     }
@@ -250,10 +250,12 @@ std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
                         " was taken more than 10 ms before or after colour, and no poses near enough in time tell "
                         "how the camera moved between, so points lie beside their places; record poses at 20 Hz or "
                         "more, or take both images at one time");
-  if (summary.frames_unrolled)
-    sentences.push_back("no poses near enough in time tell how the camera moved while the rows of " +
-                        counted(summary.frames_unrolled, "frame") +
-                        " were exposed, so points lie beside their places; record poses at 20 Hz or more");
+  if (summary.frames_bent)
+    sentences.push_back(
+        "no poses near enough in time tell how the camera moved while the rows of " +
+        counted(summary.frames_bent, "frame") +
+        " were exposed, so points lie beside their places where it turned; give poses (map: frames) at 20 Hz or "
+        "more");
   if (summary.frames_empty)
     sentences.push_back(counted(summary.frames_empty, "frame") +
                         " gave nothing: too dark, too blurred, or without depth where there is something to see");

@@ -20,6 +20,7 @@ bool RollingRows::begin(int64_t time_ns, const sphc_rigid &world_from_camera, co
   return true;
 }
 
+// As FrontEnd::atMidTime, but of a whole recording's poses; what a map shows lies within an image.
 bool RollingRows::toMiddle(const Vector3 &point_m, Vector2 *pixel_px) const {
   const double rows = 0.5 * camera_.height() - pixel_px->y();
   Vector2 middle_px;

@@ -557,7 +557,7 @@ typedef struct sphc_localizer_config {
   uint32_t reserved3;
   /* Of a rolling shutter: from a row's exposure to that of the row below it.  In SPHC_MODE_TRACKING rows are taken
    * to the time of the middle one, which is the image's, by odometry, or else by how the camera moved from pose to
-   * pose; a pose is less sure by what is not known of that motion.  0: all at once. */
+   * pose.  In both modes a pose is less sure by what is not known of that motion.  0: all at once. */
   int64_t color_row_time_ns;
 
   /* Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is set. null:

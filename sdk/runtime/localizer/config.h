@@ -58,6 +58,12 @@ struct LocalizerConfig {
 
   Clock clock;
   Parallel parallel;
+
+  bool hasRollingShutter() const {
+    bool has = color_row_time_s != 0;
+    for (const RigCamera &camera : further) has = has || camera.row_time_s != 0;
+    return has;
+  }
 };
 
 }  // namespace sphc

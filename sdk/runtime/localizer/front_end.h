@@ -23,7 +23,7 @@ struct FrameRig {
   FixedVector<DepthPlace, kMostDepthCameras> depth;
   FurtherCameras further;
   double color_row_time_s = 0;
-  CameraRate motion;    // of the colour camera
+  CameraRate motion;    // of the colour camera, while rows are exposed
   bool teaches = true;  // may be learnt of the depth cameras from this frame
 };
 

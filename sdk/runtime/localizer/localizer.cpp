@@ -175,14 +175,17 @@ bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
   return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
 }
 
-// By odometry, or else from pose to pose.
+// While rows are exposed: by odometry, or else from pose to pose.
 CameraRate Localizer::rateAt(int64_t time_ns) const {
   CameraRate rate;
   MovedPose moved;
-  if (!config_.tracks || tracker_.rate(&rate) || !predict(time_ns, &moved)) return rate;
+  if (!config_.tracks || !config_.hasRollingShutter()) return rate;
+  if (tracker_.rate(&rate)) return ofAHead(rate);
+  if (!predict(time_ns, &moved)) return rate;
   const Matrix3 &camera_from_map = moved.camera_from_map.rotation;
-  return {-(camera_from_map * moved.angular_velocity_in_map_rad_s), -(camera_from_map * moved.velocity_in_map_m_s),
-          moved.angular_velocity_sigma_rad_s, moved.velocity_sigma_m_s};
+  return ofAHead({-(camera_from_map * moved.angular_velocity_in_map_rad_s),
+                  -(camera_from_map * moved.velocity_in_map_m_s), moved.angular_velocity_sigma_rad_s,
+                  moved.velocity_sigma_m_s});
 }
 
 DepthImages Localizer::read(const DepthViews &views) {
@@ -212,7 +215,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (best().isLocalized()) {
     if (!between_.areApart()) checkFocalLength(deadline, faults, work);
     confidence_of_matches_ = confidenceOf(statedCovariance(best().estimate));
-    widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best().estimate);
+    widen(between_.turnSigma(), between_.shiftSigma(), &best().estimate);
   }
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
   if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
@@ -343,7 +346,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     if (!between_.areApart()) distances_.keep(best(), finder_.estimator());
     tracker_.goOver(best().map, maps());
     result->jump = tracker_.accept(best().map, best().estimate, surenessOf(result->faults),
-                                   (result->faults & kDoubts) != 0, between_.shift_sigma_m);
+                                   (result->faults & kDoubts) != 0, between_.shiftSigma());
     trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();

@@ -40,7 +40,7 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, Se
   rig.cameras.color_camera = frame.color_camera.value_or(config.color_camera);
   rig.cameras.color_row_time_s = config.color_row_time_s;
   rig.cameras.motion = rate;
-  rig.between.add(unknownOfRows(rig.cameras.color_camera, config.color_row_time_s, rate));
+  rig.between.addRows(unknownOfRows(rig.cameras.color_camera, config.color_row_time_s, rate));
   for (size_t i = 0; i < frame.further.size(); ++i) {
     const FurtherView &view = frame.further[i];
     const RigCamera &known = config.further[i];
@@ -48,7 +48,8 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, Se
                               way.place(view.time_ns, view.color_from_camera.value_or(known.color_from_camera),
                                         seen & seenBit(i) ? &rig.between : &unused),
                               known.row_time_s});
-    if (seen & seenBit(i)) rig.between.add(unknownOfRows(rig.cameras.further[i].camera, known.row_time_s, rate));
+    if (seen & seenBit(i))
+      rig.between.addRows(unknownOfRows(rig.cameras.further[i].camera, known.row_time_s, rate));
   }
   for (size_t i = 0; i < frame.depth.size(); ++i) {
     const DepthView &view = frame.depth[i];

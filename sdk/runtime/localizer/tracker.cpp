@@ -33,6 +33,17 @@ PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m,
           least.most_turn_rad + kGateSigmas * rotation_sigma_rad};
 }
 
+CameraRate ofAHead(const CameraRate &measured) {
+  const CameraRate any;
+  const auto share = [](double any_sigma, double sigma) {
+    return any_sigma * any_sigma / (any_sigma * any_sigma + sigma * sigma);
+  };
+  const double turn = share(any.turn_sigma_rad_s, measured.turn_sigma_rad_s),
+               shift = share(any.shift_sigma_m_s, measured.shift_sigma_m_s);
+  return {turn * measured.turn_rad_s, shift * measured.shift_m_s, sqrtOf(turn) * measured.turn_sigma_rad_s,
+          sqrtOf(shift) * measured.shift_sigma_m_s};
+}
+
 bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there) {
   if (map == expected.map) return false;
   const Placement placement = maps.placementIn(expected.map, map);
@@ -89,8 +100,12 @@ bool Tracker::rate(CameraRate *rate) const {
   Way way;
   const auto then_ns = static_cast<int64_t>(static_cast<uint64_t>(time_ns_) - kApartNs);  // times may be any
   if (!waySince(then_ns, &way)) return false;
-  *rate = {vectorFromRotation(way.now_from_then.rotation) / secondsOf(kApartNs),
-           way.now_from_then.translation_m / secondsOf(kApartNs), 0, 0};
+  // The step may have begun and ended at other rates than its own.
+  constexpr double kApartS = 1e-9 * kApartNs;
+  const double step_s = std::max(secondsOf(step_ns_), kApartS), whole_s = sqrtOf(kApartS * step_s);
+  *rate = {vectorFromRotation(way.now_from_then.rotation) / kApartS, way.now_from_then.translation_m / kApartS,
+           hypotOf(0.5 * kTurnAcceleration * step_s, way.turn_sigma_rad / whole_s),
+           hypotOf(0.5 * kAcceleration * step_s, way.shift_sigma_m / whole_s)};
   return true;
 }
 

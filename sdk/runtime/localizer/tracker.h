@@ -40,11 +40,13 @@ tuning::PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_
                                   const tuning::PoseBounds &least = tuning::kNoJump);
 
 // How a point that stands still moves in the camera's own frame: by turn x point + shift, a second; 1 sigma an
-// axis. By itself that of a head of which nothing is known.
+// axis. The default is a head of whose motion nothing is known.
 struct CameraRate {
   Vector3 turn_rad_s = Vector3::Zero(), shift_m_s = Vector3::Zero();
   double turn_sigma_rad_s = tuning::kTurnRate, shift_sigma_m_s = tuning::kSpeed;
 };
+// A measured rate together with what is known of all heads: a vague one is less than was measured.
+CameraRate ofAHead(const CameraRate &measured);
 
 // The same camera in another map; false where it is in that map already, or where it is not known how the two lie.
 bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there);
@@ -62,7 +64,8 @@ class Tracker {
   void goOver(uint32_t map, const MapSet &maps);
   // After it: what it brought, and how far that is from what was expected.  `confidence` says how sure the pose is;
   // `is_doubted`: by a fault, so that it is not to be trusted as a track is; `between_m` what is not known of the
-  // camera's way between the images of the frame, 1 sigma an axis, which the covariance has too.
+  // camera's way between the images of the frame, and while rows were exposed, 1 sigma an axis, which the
+  // covariance has too.
   Jump accept(uint32_t map, const Estimate &estimate, double confidence, bool is_doubted = false,
               double between_m = 0);
   void miss();
@@ -80,7 +83,7 @@ class Tracker {
   // How the camera moved since another time near this frame's, by the odometry of the steps before (RecentSteps);
   // false where that says nothing.
   bool waySince(int64_t then_ns, Way *way) const;
-  // At this frame, by odometry, taken for exact; false where that says nothing.
+  // At this frame, by odometry; false where that says nothing.
   bool rate(CameraRate *rate) const;
   // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
   // every pose that was accepted.

@@ -105,8 +105,8 @@ constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the ei
 // squared distance of descriptors below this.  Chosen.
 constexpr uint32_t kAskedForLike = 400, kMostDistance2OfLike = 60000;
 constexpr double kLeastMoveM = 0.10, kSameMoveM = 0.03;
-// So many equal moves are a pattern; a floor has two directions, and diagonals (decision 105).  Chosen: carpets show
-// 20 to 60, a kitchen up to 30.
+// So many equal moves are a pattern.  Chosen: carpets show 20 to 60, a kitchen up to 30.  The commonest of so many
+// directions are asked: those of the two sides of a tile, and one between them (decision 105).
 constexpr uint32_t kFewestMoves = 10, kMostMoves = 3;
 // What is found without all that repeats replaces a pose of a smaller gain where it is another one.  Chosen.
 constexpr PoseBounds kSamePoseUnrepeated = {0.05, degrees(2.5)};

@@ -114,7 +114,8 @@ public sealed unsafe partial class LocalizerConfig {
 
   /// <summary>Of a rolling shutter: from a row's exposure to that of the row below it. In LocalizerMode.Tracking
   /// rows are taken to the time of the middle one, which is the image's, by odometry, or else by how the camera
-  /// moved from pose to pose; a pose is less sure by what is not known of that motion. 0: all at once.</summary>
+  /// moved from pose to pose. In both modes a pose is less sure by what is not known of that motion. 0: all at
+  /// once.</summary>
   public long ColorRowTimeNs { get { return raw.color_row_time_ns; } set { raw.color_row_time_ns = value; } }
 }
 

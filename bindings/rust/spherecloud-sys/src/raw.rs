@@ -606,8 +606,8 @@ pub struct sphc_localizer_config {
     pub reserved3: u32,
     /// Of a rolling shutter: from a row's exposure to that of the row below it. In SPHC_MODE_TRACKING rows
     /// are taken to the time of the middle one, which is the image's, by odometry, or else by how the
-    /// camera moved from pose to pose; a pose is less sure by what is not known of that motion. 0: all at
-    /// once.
+    /// camera moved from pose to pose. In both modes a pose is less sure by what is not known of that
+    /// motion. 0: all at once.
     pub color_row_time_ns: i64,
     /// Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is
     /// set. null: the calling thread does all. Called one to a few dozen times a frame, on the thread of

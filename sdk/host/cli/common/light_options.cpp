@@ -29,4 +29,13 @@ CLI::Option *addAmplitudeOption(CLI::App *app, uint32_t *amplitude_min) {
       ->type_name("N");
 }
 
+CLI::Option *addRowTimeOption(CLI::App *app, int64_t *row_time_ns, const std::string &behind) {
+  return app
+      ->add_option("--row-time-ns", *row_time_ns,
+                   "Rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n" + behind)
+      ->capture_default_str()
+      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+      ->type_name("NS");
+}
+
 }  // namespace sphc::host

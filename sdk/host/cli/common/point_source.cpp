@@ -6,6 +6,7 @@
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/common/contradictions.h"
+#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/import/model_file.h"
@@ -151,7 +152,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"frames_unreadable", summary.frames_unreadable},
                     {"frames_empty", summary.frames_empty},
                     {"frames_apart", summary.frames_apart},
-                    {"frames_unrolled", summary.frames_unrolled},
+                    {"frames_bent", summary.frames_bent},
                     {"keypoints", summary.keypoints},
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},
@@ -184,11 +185,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->capture_default_str()
       ->check(notNegative())
       ->group(kMappingGroup);
-  app->add_option("--row-time-ns", import->row_time_ns,
-                  "Of a rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n"
-                  "needs poses (map: frames) at 20 Hz or more; tell it to localize too")
-      ->capture_default_str()
-      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+  addRowTimeOption(app, &import->row_time_ns, "needs poses (map: frames) at 20 Hz or more; tell it to localize too")
       ->group(kMappingGroup);
   app->add_flag("--keep-moving", import->keep_moving,
                 "Keep points on people, hands, feet, things that were moved, and what is drawn over the image")

@@ -38,17 +38,38 @@ TEST_F(RepetitionTest, FindsThePeriodOfAPattern) {
   }
 }
 
+// Each of the moves goes this far aside from the line of each before it, at least.
+void expectDirectionsOfTheirOwn(Span<const Vector3> moves_m, uint32_t period_px) {
+  for (size_t i = 1; i < moves_m.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      EXPECT_GT(moves_m[k].cross(moves_m[i]).norm() / moves_m[k].norm(), tuning::kSameMoveM) << period_px;
+}
+
 // Of a pattern that is finer than the least move, twice and three times its period are common.
-TEST_F(RepetitionTest, MovesHaveDirectionsOfTheirOwn) {
+TEST_F(RepetitionTest, MovesAlongOneLineAreOne) {
   for (const uint32_t period_px : {12u, 16u, 20u, 24u}) {
     parts_.seeRepeated(0, period_px);
     ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
-    const Span<const Vector3> moves_m = parts_.repetition.moves_m();
-    ASSERT_FALSE(moves_m.empty()) << period_px;
-    for (size_t i = 1; i < moves_m.size(); ++i)
-      for (size_t k = 0; k < i; ++k)
-        EXPECT_GT(moves_m[k].cross(moves_m[i]).norm() / moves_m[k].norm(), tuning::kSameMoveM) << period_px;
+    ASSERT_FALSE(parts_.repetition.moves_m().empty()) << period_px;
+    expectDirectionsOfTheirOwn(parts_.repetition.moves_m(), period_px);
   }
+}
+
+TEST_F(RepetitionTest, TilesHaveMovesOfSeveralDirections) {
+  constexpr uint32_t kPeriodPx = 40;
+  const auto made = test::sceneFrame(test::sceneConfig(), 0);
+  const std::vector<uint8_t> seen = made->images.gray;
+  const uint32_t width = made->frame.color.width;
+  Random random(1);
+  for (uint32_t i = 0; i < seen.size(); ++i) {
+    const uint32_t x = kPeriodPx + i % width % kPeriodPx, y = kPeriodPx + i / width % kPeriodPx;
+    made->images.gray[i] = static_cast<uint8_t>(std::min(255u, seen[y * width + x] + random.below(12)));
+  }
+  std::fill(made->images.depth_mm.begin(), made->images.depth_mm.end(), uint16_t{2000});
+  parts_.see(*made);
+  ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+  EXPECT_EQ(parts_.repetition.moves_m().size(), 3u);
+  expectDirectionsOfTheirOwn(parts_.repetition.moves_m(), kPeriodPx);
 }
 
 TEST_F(RepetitionTest, SaysWhatRepeats) {

@@ -89,7 +89,7 @@ TEST(RigOfFrame, OdometryTakesImagesToTheTimeOfColour) {
 
 // Of the camera's rate its sigma counts, for half of the time from the first row to the last.
 TEST(RigOfFrame, WhatIsUnknownOfTheRateCountsWhileRowsAreExposed) {
-  constexpr double kHeight = 480, kHeightOfFurther = 360;
+  constexpr double kHeight = 480, kHeightOfFurther = 360, kHalfS = kHeight / 2 * 20e-6;
   LocalizerConfig config = configOfThree();
   config.color_camera = Camera(test::pinhole(640, kHeight, 500));
   config.further[0].camera = Camera(test::pinhole(480, kHeightOfFurther, 400));
@@ -97,18 +97,26 @@ TEST(RigOfFrame, WhatIsUnknownOfTheRateCountsWhileRowsAreExposed) {
   const auto between = [&](SeenCameras seen) {
     return rigOfFrame(config, frameAt(kStep), seen, nullptr, rate).between;
   };
-  EXPECT_EQ(between(seenBit(0)).turn_sigma_rad, 0) << "all rows at once";
-  constexpr double half_s = kHeight / 2 * 20e-6;
+  EXPECT_EQ(between(seenBit(0)).turnSigma(), 0) << "all rows at once";
   for (const double row_time_s : {20e-6, -20e-6}) {
     config.color_row_time_s = row_time_s;
-    EXPECT_NEAR(between(0).turn_sigma_rad, 0.4 * half_s, 1e-12);
-    EXPECT_NEAR(between(0).shift_sigma_m, 0.5 * half_s, 1e-12) << "and the turn's, a metre away";
+    EXPECT_NEAR(between(0).turnSigma(), 0.4 * kHalfS, 1e-12);
+    EXPECT_NEAR(between(0).shiftSigma(), 0.5 * kHalfS, 1e-12) << "and the turn's, a metre away";
   }
   config.further[0].row_time_s = 80e-6;
-  EXPECT_NEAR(between(seenBit(0)).turn_sigma_rad, 0.4 * kHeightOfFurther / 2 * 80e-6, 1e-12);
-  EXPECT_NEAR(between(0).turn_sigma_rad, 0.4 * half_s, 1e-12) << "it is not there";
-  EXPECT_GT(rigOfFrame(config, frameAt(kStep), 0, nullptr, {}).between.turn_sigma_rad, between(0).turn_sigma_rad)
-      << "a head of which nothing is known";
+  EXPECT_NEAR(between(seenBit(0)).turnSigma(), 0.4 * kHeightOfFurther / 2 * 80e-6, 1e-12);
+  EXPECT_NEAR(between(0).turnSigma(), 0.4 * kHalfS, 1e-12) << "it is not there";
+}
+
+// An image that is bent by rows is of one time all the same.
+TEST(RigOfFrame, RowsDoNotMakeImagesApart) {
+  LocalizerConfig config = configOfThree();
+  config.color_camera = Camera(test::pinhole(640, 1080, 500));
+  config.color_row_time_s = 30e-6;
+  const RigOfFrame rig = rigOfFrame(config, frameAt(kStep), 0, nullptr, {});
+  EXPECT_GT(rig.between.shiftSigma(), 0.015);
+  EXPECT_FALSE(rig.between.areApart());
+  EXPECT_TRUE(rig.cameras.teaches);
 }
 
 }  // namespace

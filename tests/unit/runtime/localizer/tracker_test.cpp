@@ -588,5 +588,39 @@ TEST_F(TrackerTest, MotionBesideAFrameIsThatOfTheStep) {
   EXPECT_FALSE(tracker_.waySince(3 * kFrame, &way)) << "no odometry";
 }
 
+TEST_F(TrackerTest, TheRateIsThatOfTheStep) {
+  const double step_s = 1e-9 * kFrame;
+  CameraRate rate;
+  for (const int64_t begin_ns : {int64_t{0}, -10 * int64_t{kFrame}}) {
+    tracker_.reset();
+    Odometry odometry = {Rigid(), 0.003, 0.004};
+    tracker_.advance(begin_ns, &odometry);
+    EXPECT_FALSE(tracker_.rate(&rate)) << "no step yet";
+    odometry.odometry_from_camera = {rotationFromVector(Vector3(0, 0.02, 0)), Vector3(0.01, 0, 0)};
+    tracker_.advance(begin_ns + kFrame, &odometry);
+    ASSERT_TRUE(tracker_.rate(&rate));
+    // What stands still goes the other way.
+    EXPECT_LT((rate.turn_rad_s - Vector3(0, -0.02, 0) / step_s).norm(), 0.001);
+    EXPECT_LT((rate.shift_m_s - Vector3(-0.01, 0, 0) / step_s).norm(), 0.01);
+    EXPECT_NEAR(rate.turn_sigma_rad_s, std::hypot(0.003 / step_s, 0.5 * tuning::kTurnAcceleration * step_s), 1e-9);
+    EXPECT_NEAR(rate.shift_sigma_m_s, std::hypot(0.004 / step_s, 0.5 * tuning::kAcceleration * step_s), 1e-9);
+    tracker_.advance(begin_ns + 2 * kFrame, nullptr);
+    EXPECT_FALSE(tracker_.rate(&rate)) << "no odometry";
+  }
+}
+
+TEST_F(TrackerTest, AVagueRateIsLessThanWasMeasured) {
+  const Vector3 turn(0, 0.5, 0), shift(0.2, 0, 0.1);
+  const CameraRate any, exact = ofAHead({turn, shift, 0.001, 0.001}), vague = ofAHead({turn, shift, 1, 0.7}),
+                        unknown = ofAHead({turn, shift, 1e6, 1e6});
+  EXPECT_LT((exact.turn_rad_s - turn).norm() + (exact.shift_m_s - shift).norm(), 1e-4);
+  EXPECT_NEAR(exact.turn_sigma_rad_s, 0.001, 1e-6);
+  EXPECT_LT((vague.turn_rad_s - 0.5 * turn).norm() + (vague.shift_m_s - 0.5 * shift).norm(), 1e-9);
+  EXPECT_LT(vague.turn_sigma_rad_s, any.turn_sigma_rad_s);
+  EXPECT_LT(unknown.turn_rad_s.norm() + unknown.shift_m_s.norm(), 1e-6);
+  EXPECT_NEAR(unknown.turn_sigma_rad_s, any.turn_sigma_rad_s, 1e-6);
+  EXPECT_NEAR(unknown.shift_sigma_m_s, any.shift_sigma_m_s, 1e-6);
+}
+
 }  // namespace
 }  // namespace sphc

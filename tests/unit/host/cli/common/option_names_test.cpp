@@ -22,6 +22,8 @@ TEST_F(OptionNames, FieldsThatAnOptionSets) {
 }
 
 TEST_F(OptionNames, AFieldThatIsNamedAgain) {
+  app_.add_option("--row-time-ns");
+  EXPECT_EQ(said("config.color_row_time_ns is 5"), "--row-time-ns is 5");
   EXPECT_EQ(said("config.color_band is SPHC_BAND_VISIBLE; give that map, or set color_band to what it is"),
             "--band is visible; give that map, or set --band to what it is");
 }
@@ -35,7 +37,7 @@ TEST_F(OptionNames, AnOptionOfTheFirstWordAloneIsAnother) {
 }
 
 TEST_F(OptionNames, WhatNoOptionSetsKeepsItsName) {
-  for (const char *text : {"config.color_row_time_ns is 5", "map_id is 3", "depth_min_m of another", ""})
+  for (const char *text : {"config.camera_count is 5", "map_id is 3", "depth_min_m of another", ""})
     EXPECT_EQ(said(text), text);
 }
 

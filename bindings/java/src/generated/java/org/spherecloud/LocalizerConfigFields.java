@@ -197,7 +197,7 @@ abstract class LocalizerConfigFields extends Struct {
   /**
    * Of a rolling shutter: from a row's exposure to that of the row below it. In {@link Mode#TRACKING} rows are
    * taken to the time of the middle one, which is the image's, by odometry, or else by how the camera moved from
-   * pose to pose; a pose is less sure by what is not known of that motion. 0: all at once.
+   * pose to pose. In both modes a pose is less sure by what is not known of that motion. 0: all at once.
    */
   public long getColorRowTimeNs() {
     return getLong(Layout.LOCALIZER_CONFIG_COLOR_ROW_TIME_NS);
