@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
@@ -62,6 +66,19 @@ TEST_F(RollingShutterTest, WhereTheMotionIsNotKnownThatIsSaid) {
   const Answer tracked = succeed(localize("walk", "room.sphc") + kRowTime);
   EXPECT_THAT(tracked.err, testing::Not(HasSubstr(note)));
   EXPECT_EQ(nlohmann::json::parse(tracked.out)["settings"]["color_row_time_ns"], "60000");
+}
+
+// Those of the images among them, each once.
+TEST_F(RollingShutterTest, PosesComeFromBeforeTheFirstImageToAfterTheLast) {
+  succeed(kBrisk + "--frames 2 --rate 3 --poses 30 --out " + at("walk"));
+  std::istringstream lines(fileText(at("walk/groundtruth.txt")));
+  std::vector<double> times_s;
+  for (std::string line; std::getline(lines, line);)
+    if (line[0] != '#') times_s.push_back(std::stod(line));
+  ASSERT_EQ(times_s.size(), 16u);  // 0.1 s, 0.333 s and 0.1 s at 30 Hz
+  EXPECT_TRUE(std::is_sorted(times_s.begin(), times_s.end(), std::less_equal<>()));
+  EXPECT_NEAR(times_s.front(), 0.9, 1e-6);
+  EXPECT_EQ(std::count(times_s.begin(), times_s.end(), 1.0), 1);
 }
 
 TEST_F(RollingShutterTest, ATimeThatNoCameraHasIsRefused) {
