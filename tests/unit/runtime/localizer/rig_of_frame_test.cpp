@@ -89,7 +89,8 @@ TEST(RigOfFrame, OdometryTakesImagesToTheTimeOfColour) {
 
 // Of the camera's rate its sigma counts, for half of the time from the first row to the last.
 TEST(RigOfFrame, WhatIsUnknownOfTheRateCountsWhileRowsAreExposed) {
-  constexpr double kHeight = 480, kHeightOfFurther = 360, kHalfS = kHeight / 2 * 20e-6;
+  constexpr uint32_t kHeight = 480, kHeightOfFurther = 360;
+  constexpr double kHalfS = kHeight / 2 * 20e-6;
   LocalizerConfig config = configOfThree();
   config.color_camera = Camera(test::pinhole(640, kHeight, 500));
   config.further[0].camera = Camera(test::pinhole(480, kHeightOfFurther, 400));
