@@ -5,7 +5,7 @@
 
 Every room is mapped by a headset and by a telephone, on a lap of ten seconds (brisk: a quarter of a turn in two seconds), and each
 localizes in its own maps on lap two, two seconds at 30 Hz: frame by frame, in tracking, and with odometry.  Both have cameras that
-expose at once, or in 20 ms from the first row to the last ("rolling"), and of that the row time is told, or not.  So do frames of
+expose at once, or in 20 ms from the first row to the last ("rolling"); where the row time is told they are "straightened".  So do frames of
 another room, of which no pose is right: "elsewhere".  Half of the rooms are as they are; in the other half are the holder's hands
 and feet, carpet, and bare walls.  Every accepted pose that is wrong is printed.
 """
@@ -27,7 +27,7 @@ ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # from a room to the one that is el
 LAP_S, MAP_FRAMES, FRAMES, RATE_HZ, ELSEWHERE_FRAMES = 10, 10, 60, 30, 15
 HARD = ["--with", "hands,feet,carpet,bare"]
 ROW_TIME_NS = {"headset": 41667, "phone": 18519}  # 20 ms for 480 and 1080 rows
-SHUTTER_NAMES = AT_ONCE, ROLLING, TOLD = "at once", "rolling", "rolling, told"
+SHUTTER_NAMES = AT_ONCE, ROLLING, TOLD = "at once", "rolling", "straightened"
 SHUTTERS = (AT_ONCE, AT_ONCE), (AT_ONCE, ROLLING), (AT_ONCE, TOLD), (ROLLING, ROLLING), (ROLLING, TOLD), (TOLD, TOLD)  # map, query
 MODES = {"single": ["--mode", "single"], "tracking": [], "odometry": ["--odometry"]}
 POSES_HZ = 60  # that a map is made with
