@@ -357,6 +357,23 @@ TEST(Cameras, ARollingShutterMakesPosesLessSure) {
   EXPECT_GT(told.second, 1.2 * std::max(untold.second, by_odometry.second));
 }
 
+// The pose stays, and is less sure.
+TEST(Cameras, ASingleFrameOfARollingShutterIsLessSure) {
+  const auto answer = [](int64_t row_time_ns) {
+    sphc_localizer_config config = sphc::test::sceneConfig();
+    config.mode = SPHC_MODE_SINGLE;
+    config.color_row_time_ns = row_time_ns;
+    Session session(config);
+    sphc_localizer_result result = spherecloud::emptyResult();
+    EXPECT_EQ(session.process(sphc::test::sceneFrame(config, 0)->frame, &result), SPHC_OK);
+    return result;
+  };
+  const sphc_localizer_result at_once = answer(0), rolling = answer(kRollingRowNs);
+  EXPECT_EQ(std::memcmp(&rolling.camera_from_map, &at_once.camera_from_map, sizeof at_once.camera_from_map), 0);
+  for (const int i : {0, 21}) EXPECT_GT(rolling.covariance[i], 2 * at_once.covariance[i]) << i;
+  EXPECT_LT(rolling.confidence, at_once.confidence);
+}
+
 // Frames that nothing is known of between them: the first, and one after a gap that motion does not reach over.
 TEST(Cameras, ARateOfLongAgoIsNoWorseThanNone) {
   sphc_localizer_config config = sphc::test::sceneConfig();

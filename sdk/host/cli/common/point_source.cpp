@@ -153,6 +153,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"frames_empty", summary.frames_empty},
                     {"frames_apart", summary.frames_apart},
                     {"frames_bent", summary.frames_bent},
+                    {"row_time_ns", options.row_time_ns},
                     {"keypoints", summary.keypoints},
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},

@@ -61,6 +61,7 @@ TEST_F(RollingShutterTest, WhereTheMotionIsNotKnownThatIsSaid) {
   EXPECT_THAT(built.err, HasSubstr("the rows of 3 frames"));
   EXPECT_THAT(built.err, HasSubstr("at 20 Hz or more"));
   EXPECT_EQ(nlohmann::json::parse(built.out)["frames_bent"], 3) << built.out;
+  EXPECT_EQ(nlohmann::json::parse(built.out)["row_time_ns"], 60000);
   const std::string note = "--row-time-ns: how the camera moves is not known";
   EXPECT_THAT(succeed(localize("walk", "room.sphc") + kRowTime + " --mode single").err, HasSubstr(note));
   const Answer tracked = succeed(localize("walk", "room.sphc") + kRowTime);
