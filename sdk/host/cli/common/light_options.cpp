@@ -34,7 +34,7 @@ CLI::Option *addRowTimeOption(CLI::App *app, int64_t *row_time_ns, const std::st
       ->add_option("--row-time-ns", *row_time_ns,
                    "Rolling shutter: nanoseconds from a row of colour to the row below it, either sign;\n" + behind)
       ->capture_default_str()
-      ->check(between(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
+      ->transform(wholeBetween(-SPHC_ROW_TIME_MAX_NS, SPHC_ROW_TIME_MAX_NS))
       ->type_name("NS");
 }
 

@@ -48,4 +48,20 @@ CLI::Validator wholeFrom(uint64_t least, uint64_t most) {
       "");
 }
 
+CLI::Validator wholeBetween(int64_t least, int64_t most) {
+  return CLI::Validator(
+      [least, most](std::string &text) {
+        const std::string digits = text.substr(text.rfind('-', 0) == 0 ? 1 : 0);
+        const bool has_digits_alone =
+            !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
+        errno = 0;
+        const int64_t value = std::strtoll(text.c_str(), nullptr, 10);
+        if (!has_digits_alone || value < least || value > most || errno != 0)
+          return text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+        text = std::to_string(value);
+        return std::string();
+      },
+      "");
+}
+
 }  // namespace sphc::host

@@ -13,5 +13,7 @@ CLI::Validator notNegative();
 // For transform(), of a whole number, as a seed (from 0) or a step (from 1).  Zeros in front, as in names of files,
 // go: CLI11 would take the rest for octal.
 CLI::Validator wholeFrom(uint64_t least, uint64_t most = UINT64_MAX);
+// The same, of either sign.
+CLI::Validator wholeBetween(int64_t least, int64_t most);
 
 }  // namespace sphc::host

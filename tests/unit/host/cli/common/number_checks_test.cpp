@@ -26,6 +26,16 @@ TEST(NumberChecks, AWholeNumberHasNoSign) {
   for (const char *text : {"0", "-1"}) EXPECT_FALSE(takes(wholeFrom(1), text)) << text;
 }
 
+TEST(NumberChecks, AWholeNumberOfEitherSign) {
+  for (const char *text : {"-5", "0", "-0", "7", "-005"}) EXPECT_TRUE(takes(wholeBetween(-5, 7), text)) << text;
+  for (const char *text : {"-6", "8", "--5", "-", "+1", "1.5", "", "nan", "-99999999999999999999"})
+    EXPECT_FALSE(takes(wholeBetween(-5, 7), text)) << text;
+  std::string zeros = "-005", beyond = "8";
+  EXPECT_EQ(wholeBetween(-5, 7)(zeros), "");
+  EXPECT_EQ(zeros, "-5");
+  EXPECT_EQ(wholeBetween(-5, 7)(beyond), "8 is not a whole number from -5 to 7");
+}
+
 // Names of files have zeros in front, and nobody counts in octal.
 TEST(NumberChecks, ZerosInFrontSayNothing) {
   uint32_t number = 0;
