@@ -250,7 +250,7 @@ def others(pipeline):
          flat(rows("cameras.csv"), ["map", "query"])),
         ("Rolling shutters", "pipeline/rolling.csv", "rolling_results",
          "Two seconds at 30 Hz in each of twelve simulated rooms, six of them hard, on a lap of ten seconds; maps of ten frames. `rolling`:\n"
-         "20 ms from the first row to the last. Wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#rolling-shutters).",
+         "20 ms from the first row to the last; `straightened`: the same, and the row time is told. Wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#rolling-shutters).",
          flat(rows("rolling.csv"), ["device", "map_shutter", "query_shutter"])),
         ("Rigs of several cameras", "pipeline/rig.csv", "rig_results",
          "Cold frames of twelve simulated rooms with bare walls, by the first camera of a rig and by more of them, with as many\n"
