@@ -302,14 +302,16 @@ void rollRows(const sphc_localizer_config &config, uint32_t viewpoint, double vi
 
 constexpr int64_t kRollingFrameNs = 33000000, kRollingRowNs = 100000;
 
-// The last of a few frames whose rows are taken for that far apart, by odometry or from pose to pose.
+// The last of three frames with odometry, or of four without, whose rows are taken for that far apart, by odometry
+// or from pose to pose.
 sphc_localizer_result lastOfRolling(int64_t row_time_ns, bool with_odometry, double *error_m) {
   sphc_localizer_config config = sphc::test::sceneConfig();
   config.mode = SPHC_MODE_TRACKING;
   config.color_row_time_ns = row_time_ns;
   Session session(config);
   sphc_localizer_result result = spherecloud::emptyResult();
-  for (uint32_t i = 0; i < 4; ++i) {
+  const uint32_t frames = with_odometry ? 3 : 4;
+  for (uint32_t i = 0; i < frames; ++i) {
     const auto made = sphc::test::sceneFrame(config, i);
     rollRows(config, i, static_cast<double>(kRollingRowNs) / kRollingFrameNs, made.get());
     sphc_localizer_prior prior;
@@ -335,7 +337,7 @@ TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeByOdometry) {
   const double error_m = errorOfRolling(kRollingRowNs, true);
   EXPECT_LT(error_m, 0.004);
   EXPECT_GT(errorOfRolling(0, true), 2 * error_m);
-  EXPECT_GT(errorOfRolling(-kRollingRowNs, true), 2 * error_m);
+  EXPECT_GT(errorOfRolling(-kRollingRowNs, true), errorOfRolling(0, true));
 }
 
 TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeFromPoseToPose) {

@@ -604,7 +604,12 @@ TEST_F(TrackerTest, TheRateIsThatOfTheStep) {
     EXPECT_LT((rate.shift_m_s - Vector3(-0.01, 0, 0) / step_s).norm(), 0.01);
     EXPECT_NEAR(rate.turn_sigma_rad_s, std::hypot(0.003 / step_s, 0.5 * tuning::kTurnAcceleration * step_s), 1e-9);
     EXPECT_NEAR(rate.shift_sigma_m_s, std::hypot(0.004 / step_s, 0.5 * tuning::kAcceleration * step_s), 1e-9);
-    tracker_.advance(begin_ns + 2 * kFrame, nullptr);
+    odometry.odometry_from_camera.translation_m.y() = 0.02;
+    tracker_.advance(begin_ns + 2 * kFrame, &odometry);
+    ASSERT_TRUE(tracker_.rate(&rate));
+    EXPECT_LT(rate.turn_rad_s.norm(), 1e-6);
+    EXPECT_LT((rate.shift_m_s - Vector3(0, -0.02, 0) / step_s).norm(), 1e-6);
+    tracker_.advance(begin_ns + 3 * kFrame, nullptr);
     EXPECT_FALSE(tracker_.rate(&rate)) << "no odometry";
   }
 }
