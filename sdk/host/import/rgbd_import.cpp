@@ -180,9 +180,8 @@ class Importer {
       const Rigid camera_from_camera_at_depth = cameraFromCameraAtDepth(source, *frame, world_from_camera);
       summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
                                                         frame->depth_time_ns, camera_from_camera_at_depth));
-      if (rows->roll())
-        summary_->frames_bent += !rows->begin(frame->color_time_ns, *pose,
-                                              [&source](int64_t time_ns) { return poseAt(source, time_ns); });
+      summary_->frames_bent +=
+          !rows->begin(frame->color_time_ns, *pose, [&source](int64_t time_ns) { return poseAt(source, time_ns); });
       place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, *rows,
             describer);
     }

@@ -4,6 +4,7 @@ namespace sphc::host {
 
 // The camera moves steadily for as long as rows are exposed.
 bool RollingRows::begin(int64_t time_ns, const sphc_rigid &world_from_camera, const Poses &poses) {
+  if (!roll()) return true;
   turn_rad_ = shift_m_ = Vector3::Zero();
   const int64_t half_ns = row_time_ns_ * camera_.height() / 2;
   const auto after = [time_ns](int64_t ns) {  // without overflow: a recording has any times

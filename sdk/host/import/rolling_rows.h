@@ -18,8 +18,8 @@ class RollingRows {
   RollingRows(const Camera &camera, int64_t row_time_ns) : camera_(camera), row_time_ns_(row_time_ns) {}
 
   bool roll() const { return row_time_ns_ != 0; }
-  // Before each frame, which has this pose at this time, that of its middle row.  False where no pose is known near
-  // the first row nor near the last: its rows are then taken for exposed at once.
+  // Before each frame, which has this pose at this time, that of its middle row.  False where rows roll, and no
+  // pose is known near the first of them nor near the last: they are then taken for exposed at once.
   bool begin(int64_t time_ns, const sphc_rigid &world_from_camera, const Poses &poses);
   // Takes a pixel there, by the point that is seen in it, metres in the camera's frame.  False where that is out of
   // the image.

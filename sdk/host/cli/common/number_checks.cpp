@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace sphc::host {
 namespace {
@@ -26,6 +27,25 @@ CLI::Validator checkOf(double least, double most, const std::string &wanted) {
       "");
 }
 
+// `read` sets errno.
+template <typename Whole>
+CLI::Validator wholeCheck(Whole least, Whole most, Whole (*read)(const char *)) {
+  return CLI::Validator(
+      [least, most, read](std::string &text) {
+        const bool has_sign = std::is_signed_v<Whole> && text.rfind('-', 0) == 0;
+        const std::string digits = text.substr(has_sign ? 1 : 0);
+        const bool has_digits_alone =
+            !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
+        errno = 0;
+        const Whole value = read(text.c_str());
+        if (!has_digits_alone || value < least || value > most || errno != 0)
+          return text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+        text = std::to_string(value);
+        return std::string();
+      },
+      "");
+}
+
 }  // namespace
 
 CLI::Validator between(double least, double most) {
@@ -35,33 +55,13 @@ CLI::Validator between(double least, double most) {
 CLI::Validator notNegative() { return checkOf(0, std::numeric_limits<double>::max(), "a number from 0 on"); }
 
 CLI::Validator wholeFrom(uint64_t least, uint64_t most) {
-  return CLI::Validator(
-      [least, most](std::string &text) {
-        const bool has_digits_alone = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        errno = 0;
-        const uint64_t value = std::strtoull(text.c_str(), nullptr, 10);
-        if (!has_digits_alone || value < least || value > most || errno != 0)
-          return text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-        text = std::to_string(value);
-        return std::string();
-      },
-      "");
+  return wholeCheck<uint64_t>(least, most,
+                              [](const char *text) -> uint64_t { return std::strtoull(text, nullptr, 10); });
 }
 
 CLI::Validator wholeBetween(int64_t least, int64_t most) {
-  return CLI::Validator(
-      [least, most](std::string &text) {
-        const std::string digits = text.substr(text.rfind('-', 0) == 0 ? 1 : 0);
-        const bool has_digits_alone =
-            !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
-        errno = 0;
-        const int64_t value = std::strtoll(text.c_str(), nullptr, 10);
-        if (!has_digits_alone || value < least || value > most || errno != 0)
-          return text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-        text = std::to_string(value);
-        return std::string();
-      },
-      "");
+  return wholeCheck<int64_t>(least, most,
+                             [](const char *text) -> int64_t { return std::strtoll(text, nullptr, 10); });
 }
 
 }  // namespace sphc::host
