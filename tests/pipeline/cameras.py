@@ -9,17 +9,14 @@ that are far apart, each alone, and two seconds at 30 Hz in tracking.  So do fra
 is of one device that maps, one that localizes, and one mode.  Every accepted pose that is wrong is printed.
 """
 import collections
-import csv
 import itertools
-import statistics
 import sys
 
 sys.dont_write_bytecode = True
-import confidence
 import room_options
-from nasty import errors, is_close, is_wrong
+from nasty import is_wrong
 from recordings import HERE
-from simulated_room import SimulatedRoom, frames_of_rooms
+from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of, write_rows
 
 RESULTS = HERE / "cameras.csv"
 DEVICES = "headset", "phone", "wide", "glasses"
@@ -29,9 +26,11 @@ HARD = ["--with", "hands,feet,carpet,bare"]
 # What is asked: frames, how many a second, and how `localize` looks at them.
 Query = collections.namedtuple("Query", "frames hz mode")
 QUERIES = {"single": Query(20, 1.25, "single"), "tracking": Query(60, 30, "tracking"), "elsewhere": Query(15, 1, "single")}
-COLUMNS = ["map", "query", "mode", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
-           "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm",
-           "worst_deg", "worst_confidence", "ece", "elsewhere_frames", "elsewhere_accepted"]
+KEY = ["map", "query", "mode"]
+COLUMNS = KEY + [
+    "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean", "within_5cm_5deg_percent_worst", "median_cm", "p90_cm",
+    "tracking", "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence", "ece", "elsewhere_frames",
+    "elsewhere_accepted"]
 Frame = collections.namedtuple("Frame", "seed map query mode here answer")
 
 
@@ -61,31 +60,10 @@ class Room(SimulatedRoom):
                     yield Frame(self.seed, device, query, mode, name != "elsewhere", answer)
 
 
-def row_of(key, frames):
-    here, elsewhere = ([frame for frame in frames if frame.here == side] for side in (True, False))
-    accepted = [frame for frame in here if frame.answer["localized"]]
-    wrong = [frame.answer for frame in accepted if is_wrong(frame)]
-    rooms = collections.defaultdict(list)
-    for frame in here:
-        rooms[frame.seed].append(100 * is_close(frame))
-    close = [statistics.mean(room) for room in rooms.values()]
-    centimetres = sorted(errors(frame.answer)[0] for frame in accepted)
-    poses = [confidence.pose_of(frame.answer) for frame in accepted]
-    tracking = [frame.answer["state"] == "tracking" for frame in accepted]
-    worst = ["%.1f" % max(errors(answer)[0] for answer in wrong), "%.1f" % max(errors(answer)[1] for answer in wrong),
-             "%.3f" % max(answer["confidence"] for answer in wrong)] if wrong else ["", "", ""]
-    return dict(zip(COLUMNS, [
-        *key, len(rooms), len(here), "%.1f" % (100 * len(accepted) / len(here)), "%.1f" % statistics.mean(close), "%.1f" % min(close),
-        *(("%.2f" % centimetres[int(share * (len(centimetres) - 1))] for share in (0.5, 0.9)) if accepted else ("", "")),
-        sum(tracking), len(wrong), sum(answer["state"] == "tracking" for answer in wrong), *worst,
-        "%.3f" % confidence.calibration_error(poses) if poses else "", len(elsewhere), sum(map(is_wrong, elsewhere))]))
-
-
 def tell(frame):
-    answer = frame.answer
-    print("WRONG room %d, map of %s, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, %d of %d matches, %s" % (
+    print("WRONG room %d, map of %s, %s, %s, %s" % (
         frame.seed, frame.map, "query of " + frame.query if frame.here else "elsewhere, by " + frame.query, frame.mode,
-        answer["sequence"], *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"]), flush=True)
+        words_of(frame.answer)), flush=True)
 
 
 def main():
@@ -96,10 +74,7 @@ def main():
         if is_wrong(frame):
             tell(frame)
     order = list(itertools.product(DEVICES, DEVICES, ("single", "tracking")))
-    with arguments.results.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(row_of(key, found[key]) for key in order)
+    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(found[key])} for key in order])
 
 
 if __name__ == "__main__":

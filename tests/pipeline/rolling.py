@@ -10,17 +10,14 @@ another room, of which no pose is right: "elsewhere".  Half of the rooms are as 
 and feet, carpet, and bare walls.  Every accepted pose that is wrong is printed.
 """
 import collections
-import csv
 import itertools
-import statistics
 import sys
 
 sys.dont_write_bytecode = True
-import confidence
 import room_options
-from nasty import errors, is_close, is_wrong
+from nasty import is_wrong
 from recordings import HERE
-from simulated_room import SimulatedRoom, frames_of_rooms
+from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of, write_rows
 
 RESULTS = HERE / "rolling.csv"
 ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # from a room to the one that is elsewhere
@@ -31,10 +28,11 @@ SHUTTER_NAMES = AT_ONCE, ROLLING, TOLD = "at once", "rolling", "straightened"
 SHUTTERS = (AT_ONCE, AT_ONCE), (AT_ONCE, ROLLING), (AT_ONCE, TOLD), (ROLLING, ROLLING), (ROLLING, TOLD), (TOLD, TOLD)  # map, query
 MODES = {"single": ["--mode", "single"], "tracking": [], "odometry": ["--odometry"]}
 POSES_HZ = 60  # that a map is made with
-COLUMNS = ["device", "map_shutter", "query_shutter", "mode", "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean",
-           "within_5cm_5deg_percent_worst", "median_cm", "p90_cm", "median_deg", "p90_deg", "translation_over_sigma_median",
-           "rotation_over_sigma_median", "tracking", "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence",
-           "elsewhere_frames", "elsewhere_accepted"]
+KEY = ["device", "map_shutter", "query_shutter", "mode"]
+COLUMNS = KEY + [
+    "rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_mean", "within_5cm_5deg_percent_worst", "median_cm", "p90_cm",
+    "median_deg", "p90_deg", "translation_over_sigma_median", "rotation_over_sigma_median", "tracking", "wrong_accepted",
+    "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence", "elsewhere_frames", "elsewhere_accepted"]
 Frame = collections.namedtuple("Frame", "seed device map query mode here answer")
 
 
@@ -68,39 +66,15 @@ class Room(SimulatedRoom):
             file = self.map_by(device, of_map)
             for here, recording in ((True, self.query(device, of_query)), (False, self.elsewhere(device, of_query))):
                 for mode, arguments in MODES.items():
-                    for answer in self.localize(file, recording, mode, *arguments, *told(device, of_query)):
+                    name = "%s_%d" % (mode, SHUTTER_NAMES.index(of_query))
+                    for answer in self.localize(file, recording, name, *arguments, *told(device, of_query)):
                         yield Frame(self.seed, device, of_map, of_query, mode, here, answer)
 
 
-def median_and_p90(values):
-    values = sorted(values)
-    return ["%.2f" % values[int(share * (len(values) - 1))] for share in (0.5, 0.9)] if values else ["", ""]
-
-
-def row_of(key, frames):
-    here, elsewhere = ([frame for frame in frames if frame.here == side] for side in (True, False))
-    accepted = [frame.answer for frame in here if frame.answer["localized"]]
-    wrong = [frame.answer for frame in here if is_wrong(frame)]
-    rooms = collections.defaultdict(list)
-    for frame in here:
-        rooms[frame.seed].append(100 * is_close(frame))
-    close = [statistics.mean(room) for room in rooms.values()]
-    poses = [confidence.pose_of(answer) for answer in accepted]
-    centimetres, degrees = ([errors(answer)[part] for answer in accepted] for part in (0, 1))
-    worst = ["%.1f" % max(errors(answer)[0] for answer in wrong), "%.1f" % max(errors(answer)[1] for answer in wrong),
-             "%.3f" % max(answer["confidence"] for answer in wrong)] if wrong else ["", "", ""]
-    return dict(zip(COLUMNS, [
-        *key, len(rooms), len(here), "%.1f" % (100 * len(accepted) / len(here)), "%.1f" % statistics.mean(close), "%.1f" % min(close),
-        *median_and_p90(centimetres), *median_and_p90(degrees), median_and_p90(pose.translation_over_sigma for pose in poses)[0],
-        median_and_p90(pose.rotation_over_sigma for pose in poses)[0], sum(answer["state"] == "tracking" for answer in accepted),
-        len(wrong), sum(answer["state"] == "tracking" for answer in wrong), *worst, len(elsewhere), sum(map(is_wrong, elsewhere))]))
-
-
 def tell(frame):
-    answer = frame.answer
-    print("WRONG room %d, %s, map %s, query %s, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, %d of %d matches, %s" % (
-        frame.seed, frame.device, frame.map, frame.query, frame.mode, "here" if frame.here else "elsewhere", answer["sequence"],
-        *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"]), flush=True)
+    print("WRONG room %d, %s, map %s, query %s, %s, %s, %s" % (
+        frame.seed, frame.device, frame.map, frame.query, frame.mode, "here" if frame.here else "elsewhere", words_of(frame.answer)),
+        flush=True)
 
 
 def main():
@@ -110,10 +84,7 @@ def main():
         found[frame[1:5]].append(frame)
         if is_wrong(frame):
             tell(frame)
-    with arguments.results.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(row_of(key, frames) for key, frames in sorted(found.items()))
+    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(frames)} for key, frames in sorted(found.items())])
 
 
 if __name__ == "__main__":

@@ -1,10 +1,15 @@
 """A simulated room, through the command line alone: its recordings, its maps, and what is localized in them."""
+import collections
 import concurrent.futures
+import csv
 import json
 import os
+import statistics
 import sys
 
+import confidence
 import room_options
+from nasty import errors, is_close, is_wrong
 from private_key import key_of
 from recordings import run
 
@@ -51,3 +56,49 @@ def frames_of_rooms(arguments, measure):
             yield from frames
             if sys.stderr.isatty():
                 print("\r%d of %d rooms" % (number + 1, arguments.rooms), end="", file=sys.stderr)
+
+
+def median_and_p90(values):
+    values = sorted(values)
+    return ["%.2f" % values[int(share * (len(values) - 1))] for share in (0.5, 0.9)] if values else ["", ""]
+
+
+def figures_of(frames):
+    """What a ledger says of frames of several rooms, some of them of another room; a frame has `seed`, `here` and `answer`."""
+    here, elsewhere = ([frame for frame in frames if frame.here == side] for side in (True, False))
+    accepted = [frame.answer for frame in here if frame.answer["localized"]]
+    wrong = [frame.answer for frame in here if is_wrong(frame)]
+    rooms = collections.defaultdict(list)
+    for frame in here:
+        rooms[frame.seed].append(100 * is_close(frame))
+    close = [statistics.mean(room) for room in rooms.values()]
+    poses = [confidence.pose_of(answer) for answer in accepted]
+    figures = {
+        "rooms": len(rooms), "frames": len(here), "accepted_percent": "%.1f" % (100 * len(accepted) / len(here)),
+        "within_5cm_5deg_percent_mean": "%.1f" % statistics.mean(close), "within_5cm_5deg_percent_worst": "%.1f" % min(close),
+        "translation_over_sigma_median": median_and_p90(pose.translation_over_sigma for pose in poses)[0],
+        "rotation_over_sigma_median": median_and_p90(pose.rotation_over_sigma for pose in poses)[0],
+        "tracking": sum(answer["state"] == "tracking" for answer in accepted), "wrong_accepted": len(wrong),
+        "wrong_tracking": sum(answer["state"] == "tracking" for answer in wrong),
+        "worst_cm": "%.1f" % max(errors(answer)[0] for answer in wrong) if wrong else "",
+        "worst_deg": "%.1f" % max(errors(answer)[1] for answer in wrong) if wrong else "",
+        "worst_confidence": "%.3f" % max(answer["confidence"] for answer in wrong) if wrong else "",
+        "ece": "%.3f" % confidence.calibration_error(poses) if poses else "",
+        "elsewhere_frames": len(elsewhere), "elsewhere_accepted": sum(map(is_wrong, elsewhere))}
+    for part, unit in enumerate(("cm", "deg")):
+        figures["median_" + unit], figures["p90_" + unit] = median_and_p90(errors(answer)[part] for answer in accepted)
+    return figures
+
+
+def write_rows(path, columns, rows):
+    """Of the figures of each row those that are columns."""
+    with path.open("w", newline="") as out:
+        writer = csv.DictWriter(out, columns, lineterminator="\n", extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def words_of(answer):
+    """Of one that is wrong."""
+    return "frame %d: %.1f cm, %.1f deg, confidence %.3f, %d of %d matches, %s" % (
+        answer["sequence"], *errors(answer), answer["confidence"], answer["inliers"], answer["matches"], answer["state"])
