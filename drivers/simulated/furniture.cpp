@@ -101,6 +101,33 @@ void addBookshelf(Builder &b, const Place &place, double width, double height) {
   addClutter(b, at(place, 0, 0.16, height), width - 0.2, 0.12, 3);
 }
 
+void addBinderShelf(Builder &b, const Place &place, double width) {
+  b.newStyle();
+  constexpr int kBoards = 6;
+  constexpr uint64_t kBinderSeed = 29;
+  constexpr double kDepth = 0.32, kBoard = 0.012, kPitch = 0.38, kPeriod = 0.08;
+  constexpr double kBinderWidth = 0.075, kBinderHeight = 0.32, kBinderDepth = 0.28;
+  constexpr double kHeight = (kBoards - 1) * kPitch + kBoard;
+  const double half = 0.5 * width;
+  for (const double x : {-half, half})
+    b.box(place, {x, 0.5 * kDepth, 0.5 * kHeight}, {kBoard, 0.5 * kDepth, 0.5 * kHeight}, kWood);
+  const int binders = static_cast<int>((width - 4 * kBoard) / kPeriod);
+  for (int board = 0; board < kBoards; ++board) {
+    const double z = kBoard + board * kPitch;
+    b.box(place, {0, 0.5 * kDepth, z}, {half, 0.5 * kDepth, kBoard}, kWood);
+    if (board == kBoards - 1) break;
+    for (int i = 0; i < binders; ++i) {
+      const Vec3d middle{(i - 0.5 * (binders - 1)) * kPeriod, 0.5 * kDepth, z + kBoard + 0.5 * kBinderHeight};
+      const Vec3d extent{0.5 * kBinderWidth, 0.5 * kBinderDepth, 0.5 * kBinderHeight};
+      b.movable(place, 0, [&](const Place &own) {
+        b.repeatably(kBinderSeed, [&] {
+          b.boxWithFront(own, middle, extent, {Material::kPaper, 0.008f}, {Material::kBinder, 0.0015f});
+        });
+      });
+    }
+  }
+}
+
 void addSofa(Builder &b, const Place &place, double width) {
   b.newStyle();
   constexpr double kDepth = 0.88;

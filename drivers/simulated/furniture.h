@@ -7,6 +7,8 @@
 namespace sphc::simulated {
 
 void addBookshelf(Builder &builder, const Place &place, double width, double height);
+// Binders are equal everywhere, as those of one maker are.
+void addBinderShelf(Builder &builder, const Place &place, double width);
 void addSofa(Builder &builder, const Place &place, double width);
 void addCabinet(Builder &builder, const Place &place, double width, double height, int columns, int rows);
 void addTvBench(Builder &builder, const Place &place, double width);

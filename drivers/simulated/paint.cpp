@@ -85,6 +85,10 @@ void paint(Canvas &canvas, Material material, uint64_t style_seed, uint64_t seed
       return paintFabric(canvas, style, rng);
     case Material::kShoe:
       return paintShoe(canvas, rng);
+    case Material::kRepeatingWallpaper:
+      return paintRepeatingWallpaper(canvas, style, rng);
+    case Material::kBinder:
+      return paintBinder(canvas, rng);
   }
 }
 

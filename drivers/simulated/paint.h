@@ -42,6 +42,8 @@ enum class Material : uint8_t {
   kHead,
   kShoe,
   kTrousers,
+  kRepeatingWallpaper,
+  kBinder,
 };
 
 // Paints the whole canvas.  `style` decides the kind of cloth or wood, which the parts of one piece share; `seed`
@@ -54,6 +56,7 @@ bool isOutdoors(Material material);
 // The painters, each in the file named for its kind.
 void paintBrick(Canvas &canvas, Rng &rng);
 void paintWallpaper(Canvas &canvas, Rng &rng);
+void paintRepeatingWallpaper(Canvas &canvas, Rng &style, Rng &rng);
 void paintPlaster(Canvas &canvas, Rng &rng);
 void paintCeiling(Canvas &canvas, Rng &rng);
 void paintPlanks(Canvas &canvas, Rng &rng, float plank_width_m, float plank_length_m, bool upright);
@@ -66,6 +69,7 @@ void paintCurtain(Canvas &canvas, Rng &style, Rng &rng);
 void paintPicture(Canvas &canvas, Rng &rng);
 void paintWindow(Canvas &canvas, Rng &rng);
 void paintSpine(Canvas &canvas, Rng &rng);
+void paintBinder(Canvas &canvas, Rng &rng);
 void paintPaper(Canvas &canvas, Rng &rng);
 void paintMagazine(Canvas &canvas, Rng &rng);
 void paintScreen(Canvas &canvas, Rng &rng);

@@ -191,6 +191,22 @@ void paintSpine(Canvas &canvas, Rng &rng) {
   canvas.rectangle(w - 0.0015f, 0, w, h, cover * 0.4f, 0.7f);
 }
 
+// The back of a lever-arch file: marbled paper, a label and a hole for the finger.
+void paintBinder(Canvas &canvas, Rng &rng) {
+  const float w = canvas.width(), h = canvas.height();
+  const auto seed = static_cast<uint32_t>(rng.next());
+  canvas.fill([&](float x, float y) {
+    return Ink{0.3f, 0.3f, 0.32f, 0.4f} * (1 + 0.35f * fbm(x * 160, y * 160, 3, seed));
+  });
+  const Ink ink{0.1f, 0.1f, 0.15f, 0.2f}, label{0.92f, 0.9f, 0.85f, 0.75f};
+  canvas.rectangle(0.12f * w, 0.1f * h, 0.88f * w, 0.58f * h, label);
+  canvas.rectangle(0.12f * w, 0.1f * h, 0.88f * w, 0.14f * h, tasteful(rng));
+  for (int line = 0; line < 4; ++line)
+    canvas.text(0.2f * w, (0.2f + 0.09f * static_cast<float>(line)) * h, 0.011f, randomWord(rng, 5), ink);
+  canvas.ring(0.5f * w, 0.78f * h, 0.014f, 0.003f, {0.8f, 0.8f, 0.82f, 0.5f});
+  canvas.disc(0.5f * w, 0.78f * h, 0.0125f, {0.05f, 0.05f, 0.05f, 0.1f});
+}
+
 void paintPaper(Canvas &canvas, Rng &rng) {
   const auto seed = static_cast<uint32_t>(rng.next());
   canvas.fill([&](float x, float y) {

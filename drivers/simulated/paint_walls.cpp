@@ -99,6 +99,33 @@ void paintWallpaper(Canvas &canvas, Rng &rng) {
   canvas.speckle(rng, 1200, 0.004f, 0.02f, 0.3f);
 }
 
+// The style is the paper; the seed is what years leave, the only thing that does not repeat.
+void paintRepeatingWallpaper(Canvas &canvas, Rng &style, Rng &rng) {
+  constexpr float kRepeat = 0.53f;
+  constexpr int kFlowers = 12;
+  const uint32_t seed = noiseSeed(rng);
+  const float hue = style.uniform();
+  const Ink base = hsv(hue, style.uniform(0.1f, 0.35f), style.uniform(0.68f, 0.85f), 0.65f);
+  const Ink stripe = hsv(hue + 0.06f, style.uniform(0.2f, 0.45f), style.uniform(0.55f, 0.8f), 0.6f);
+  const float stripes = static_cast<float>(2 + style.index(3));
+  canvas.fill([&](float x, float y) {
+    const float wave = std::sin(2 * kFloatPi * stripes * x / kRepeat);
+    return mix(base, stripe, smooth(-0.15f, 0.15f, wave)) * (1 + 0.04f * fbm(x * 1.1f, y * 1.1f, 3, seed));
+  });
+  // From one repetition before the canvas on, since flowers reach over the edge of theirs.
+  for (float top = -kRepeat; top < canvas.height(); top += kRepeat) {
+    for (float left = -kRepeat; left < canvas.width(); left += kRepeat) {
+      Rng motif = style;
+      for (int i = 0; i < kFlowers; ++i) {
+        const Ink petal = hsv(hue + motif.uniform(-0.2f, 0.3f), 0.5f, motif.uniform(0.35f, 0.95f), 0.5f);
+        const Ink heart = hsv(hue + 0.5f, 0.5f, motif.uniform(0.3f, 0.9f), 0.5f);
+        const float x = left + motif.uniform(0, kRepeat), y = top + motif.uniform(0, kRepeat);
+        flower(canvas, motif, x, y, motif.uniform(0.02f, 0.06f), petal, heart);
+      }
+    }
+  }
+}
+
 void paintPlaster(Canvas &canvas, Rng &rng) {
   const uint32_t seed = noiseSeed(rng);
   const Ink base = mix(tasteful(rng), {0.9f, 0.88f, 0.82f, 0.7f}, rng.uniform(0.6f, 0.8f));

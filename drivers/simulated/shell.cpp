@@ -20,15 +20,19 @@ Material floorOf(uint32_t with) {
   return (with & SPHC_SIMULATED_TILES) != 0 ? Material::kTiles : Material::kFloor;
 }
 
-Surfaces chooseSurfaces(Rng &rng, uint32_t with) {
+Surfaces chooseSurfaces(Builder &b, uint32_t with) {
   Surfaces surfaces{{Material::kBrick, Material::kWallpaper, Material::kPlaster, Material::kPlaster,
                      Material::kPanelling, Material::kWallpaper},
                     floorOf(with),
                     Material::kCeiling};
-  shuffle(surfaces.walls, rng);
+  shuffle(surfaces.walls, b.rng());
   if ((with & SPHC_SIMULATED_BARE) != 0) {
     for (Material &wall : surfaces.walls) wall = Material::kBare;
     surfaces.ceiling = Material::kBare;
+  }
+  if ((with & SPHC_SIMULATED_WALLPAPER) != 0) {
+    b.newStyle();  // the paper
+    for (Material &wall : surfaces.walls) wall = Material::kRepeatingWallpaper;
   }
   return surfaces;
 }
@@ -55,7 +59,7 @@ void buildWall(Builder &b, const Wall &wall, double ceiling, Material material) 
 }  // namespace
 
 void buildClosedShell(Builder &b, const Vec3d &half, uint32_t with) {
-  const Surfaces own = chooseSurfaces(b.rng(), with);
+  const Surfaces own = chooseSurfaces(b, with);
   const Finish faces[kMaxFaces] = {{own.walls[0], kTexel}, {own.walls[1], kTexel}, {own.walls[2], kTexel},
                                    {own.walls[3], kTexel}, {own.floor, kTexel},    {own.ceiling, kCeilingTexel}};
   b.room(half, faces);
@@ -63,7 +67,7 @@ void buildClosedShell(Builder &b, const Vec3d &half, uint32_t with) {
 
 void buildOpenShell(Builder &b, const Vec3d &center, const Vec3d &half, const Wall (&walls)[4], uint32_t with) {
   constexpr double kSlab = 0.05;  // half of its thickness
-  const Surfaces own = chooseSurfaces(b.rng(), with);
+  const Surfaces own = chooseSurfaces(b, with);
   const double ceiling = 2 * half.z;
   const Vec3d slab{half.x + kWallThickness, half.y + kWallThickness, kSlab};
   const Place middle{center, 0};

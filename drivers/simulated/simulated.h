@@ -55,7 +55,9 @@ enum {
   SPHC_SIMULATED_NIGHT = 1u << 11, /* light: one floor lamp, warm and dim, black windows; more noise */
   SPHC_SIMULATED_DARK = 1u << 12,  /* light: lamps off at dusk; much noise, longer exposure */
   SPHC_SIMULATED_FLAT = 1u << 13,  /* eight rooms in a ring, with doorways; a lap goes through all of them */
-  SPHC_SIMULATED_MENU = 1u << 14   /* a line of text and a menu are drawn over the colour image */
+  SPHC_SIMULATED_MENU = 1u << 14,  /* a line of text and a menu are drawn over the colour image */
+  SPHC_SIMULATED_WALLPAPER = 1u << 15, /* all walls: one paper, a pattern of 53 cm that repeats exactly */
+  SPHC_SIMULATED_BINDERS = 1u << 16    /* shelves along the walls, full of equal binders */
 };
 #define SPHC_SIMULATED_LAP_OF_FLAT_S 150.0 /* lap_s for a flat: about a third of a metre a second */
 

@@ -41,6 +41,8 @@ PieceSize sizeOf(Piece piece) {
       return {0.95, 0.95};
     case Piece::kMirror:
       return {1.2, 2.2};
+    case Piece::kBinders:
+      return {1.7, 2.2};
   }
   return {1, 1};
 }
@@ -71,6 +73,8 @@ void addPiece(Builder &b, Piece piece, const Place &place) {
       return addSofa(b, place, 0.92);
     case Piece::kMirror:
       return addMirror(b, place, 1.1, 2.05);
+    case Piece::kBinders:
+      return addBinderShelf(b, place, 1.66);
   }
 }
 
@@ -138,6 +142,7 @@ std::vector<Piece> choosePieces(Rng &rng, uint32_t with) {
     const std::vector<Piece> once = pieces;
     pieces.insert(pieces.end(), once.begin(), once.end());
   }
+  if ((with & SPHC_SIMULATED_BINDERS) != 0) pieces.insert(pieces.begin(), 5, Piece::kBinders);
   if ((with & SPHC_SIMULATED_MIRROR) != 0) pieces.insert(pieces.begin(), Piece::kMirror);
   return pieces;
 }

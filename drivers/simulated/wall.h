@@ -37,7 +37,8 @@ enum class Piece {
   kDoor,
   kBoxes,
   kArmchair,
-  kMirror
+  kMirror,
+  kBinders
 };
 
 // In the order in which they are to find room.  `with`: as in sphc_simulated_config.

@@ -13,11 +13,12 @@ constexpr struct {
   const char *name;
   uint32_t bit;
 } kNames[] = {
-    {"hands", SPHC_SIMULATED_HANDS},     {"feet", SPHC_SIMULATED_FEET},       {"people", SPHC_SIMULATED_PEOPLE},
-    {"carpet", SPHC_SIMULATED_CARPET},   {"tiles", SPHC_SIMULATED_TILES},     {"bare", SPHC_SIMULATED_BARE},
-    {"parquet", SPHC_SIMULATED_PARQUET}, {"doubles", SPHC_SIMULATED_DOUBLES}, {"mirror", SPHC_SIMULATED_MIRROR},
-    {"window", SPHC_SIMULATED_WINDOW},   {"day", SPHC_SIMULATED_DAY},         {"night", SPHC_SIMULATED_NIGHT},
-    {"dark", SPHC_SIMULATED_DARK},       {"flat", SPHC_SIMULATED_FLAT},       {"menu", SPHC_SIMULATED_MENU},
+    {"hands", SPHC_SIMULATED_HANDS},         {"feet", SPHC_SIMULATED_FEET},       {"people", SPHC_SIMULATED_PEOPLE},
+    {"carpet", SPHC_SIMULATED_CARPET},       {"tiles", SPHC_SIMULATED_TILES},     {"bare", SPHC_SIMULATED_BARE},
+    {"parquet", SPHC_SIMULATED_PARQUET},     {"doubles", SPHC_SIMULATED_DOUBLES}, {"mirror", SPHC_SIMULATED_MIRROR},
+    {"window", SPHC_SIMULATED_WINDOW},       {"day", SPHC_SIMULATED_DAY},         {"night", SPHC_SIMULATED_NIGHT},
+    {"dark", SPHC_SIMULATED_DARK},           {"flat", SPHC_SIMULATED_FLAT},       {"menu", SPHC_SIMULATED_MENU},
+    {"wallpaper", SPHC_SIMULATED_WALLPAPER}, {"binders", SPHC_SIMULATED_BINDERS},
 };
 
 // The names of the bits that are set, with commas.

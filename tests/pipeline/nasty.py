@@ -70,6 +70,9 @@ WORLDS = {
     "menu": same("menu"),
     # Eight rooms with the same furniture in each.
     "flat": World(["--with", "flat,doubles"], ["--with", "flat,doubles"], 64, (64,), FLAT_LAP_S),
+    # Walls and shelves that repeat exactly: with what a room has besides, and with little else.
+    "wallpaper": same("wallpaper"), "binders": same("binders"), "papered": same("wallpaper,bare,tiles"),
+    "office": same("binders,carpet,bare,doubles"),
 }
 ROW = ["world", "map_frames", "fakes", "mode"]
 COLUMNS = ROW + ["rooms", "frames", "accepted", "within_5cm_5deg_percent_median", "within_5cm_5deg_percent_worst",

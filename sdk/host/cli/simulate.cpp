@@ -241,7 +241,9 @@ const char kWithHelp[] =
     "  mirror, window  depth goes on behind the glass: to the image, to nothing\n"
     "  day, night, dark   the sun alone, a floor lamp alone, hardly any light\n"
     "  flat            eight rooms in a ring, with doorways; a lap goes through all\n"
-    "  menu            a line of text and a menu, drawn over the colour image";
+    "  menu            a line of text and a menu, drawn over the colour image\n"
+    "  wallpaper       one paper on all walls that repeats exactly\n"
+    "  binders         shelves along the walls, full of equal binders";
 
 const char kCamerasHelp[] =
     "Whose cameras:\n"

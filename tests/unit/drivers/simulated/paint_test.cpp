@@ -8,7 +8,7 @@
 namespace sphc::simulated {
 namespace {
 
-// A square of a floor, `side` texels wide.
+// A square of a floor or a wall, `side` texels wide.
 std::vector<Texel> square(Material material, uint32_t side, float texel_m) {
   std::vector<Texel> texels(size_t{side} * side);
   const float size_m = static_cast<float>(side) * texel_m;
@@ -29,18 +29,21 @@ double differenceAt(const std::vector<Texel> &texels, uint32_t side, uint32_t sh
   return sum / (side * (side - shift));
 }
 
-TEST(SimulatedPaint, FloorsRepeat) {
+TEST(SimulatedPaint, FloorsAndWallpaperRepeat) {
   constexpr float kTexel = 0.0025f;
   constexpr uint32_t kSide = 480;
   const struct {
     Material material;
     uint32_t period;  // texels
-  } floors[] = {{Material::kFittedCarpet, 36}, {Material::kParquet, 240}, {Material::kTiles, 100}};
-  for (const auto &floor : floors) {
-    const std::vector<Texel> texels = square(floor.material, kSide, kTexel);
-    const double repeated = differenceAt(texels, kSide, floor.period);
+  } surfaces[] = {{Material::kFittedCarpet, 36},
+                  {Material::kParquet, 240},
+                  {Material::kTiles, 100},
+                  {Material::kRepeatingWallpaper, 212}};
+  for (const auto &surface : surfaces) {
+    const std::vector<Texel> texels = square(surface.material, kSide, kTexel);
+    const double repeated = differenceAt(texels, kSide, surface.period);
     EXPECT_LT(repeated, 6) << "wear alone";
-    EXPECT_GT(differenceAt(texels, kSide, floor.period / 3), 2 * repeated);
+    EXPECT_GT(differenceAt(texels, kSide, surface.period / 3), 2 * repeated);
   }
   const std::vector<Texel> planks = square(Material::kFloor, kSide, kTexel);
   for (uint32_t shift = 20; shift < kSide / 2; shift += 20) EXPECT_GT(differenceAt(planks, kSide, shift), 6);

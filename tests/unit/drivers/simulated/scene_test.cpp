@@ -20,8 +20,8 @@ constexpr uint64_t kSeed = 7;
 // A room without paint, and what a few hundred rays of the colour camera meet.
 class Bare {
  public:
-  explicit Bare(uint32_t with, uint64_t arrangement_seed = 0)
-      : scene(buildScene(configOf(with, arrangement_seed), jobs)),
+  explicit Bare(uint32_t with, uint64_t arrangement_seed = 0, uint64_t seed = kSeed)
+      : scene(buildScene(configOf(with, arrangement_seed, seed), jobs)),
         walk(scene, kSeed, kLap_s, (with & SPHC_SIMULATED_FEET) != 0),
         camera_(camerasOf(SPHC_SIMULATED_CAMERAS_HEADSET).rig.color_camera),
         rays_(camera_) {}
@@ -73,9 +73,9 @@ class Bare {
   Walk walk;
 
  private:
-  static sphc_simulated_config configOf(uint32_t with, uint64_t arrangement_seed) {
+  static sphc_simulated_config configOf(uint32_t with, uint64_t arrangement_seed, uint64_t seed) {
     sphc_simulated_config config = defaults();
-    config.seed = kSeed;
+    config.seed = seed;
     config.with = with;
     config.arrangement_seed = arrangement_seed;
     return config;
@@ -164,6 +164,34 @@ TEST(SimulatedScene, BareWallsHaveNothingOnThem) {
   const Bare bare(SPHC_SIMULATED_BARE);
   EXPECT_EQ(bare.facesOf(Material::kBare), 5u);
   EXPECT_EQ(bare.facesOf(Material::kPicture) + bare.facesOf(Material::kClock), 0u);
+}
+
+TEST(SimulatedScene, OnePaperIsOnAllWallsAlsoWhereTheyAreBare) {
+  for (const uint32_t bare : {0u, uint32_t{SPHC_SIMULATED_BARE}}) {
+    const Bare papered(SPHC_SIMULATED_WALLPAPER | bare);
+    EXPECT_EQ(papered.facesOf(Material::kRepeatingWallpaper), 4u);
+    EXPECT_EQ(papered.facesOf(Material::kPicture) == 0, bare != 0);
+    std::set<uint64_t> papers;
+    for (const Job &job : papered.jobs) {
+      if (job.material == Material::kRepeatingWallpaper) papers.insert(job.style);
+    }
+    EXPECT_EQ(papers.size(), 1u);
+  }
+}
+
+TEST(SimulatedScene, BindersAreEqualAndTheSameInAnotherRoom) {
+  const Bare here(SPHC_SIMULATED_BINDERS), elsewhere(SPHC_SIMULATED_BINDERS, 0, kSeed + 1);
+  EXPECT_EQ(Bare(0).facesOf(Material::kBinder), 0u);
+  EXPECT_GE(here.facesOf(Material::kBinder), 200u) << "two shelves";
+  EXPECT_EQ(here.mostEqual(Material::kBinder), here.facesOf(Material::kBinder));
+  const auto binder = [](const Bare &room) {
+    return std::find_if(room.jobs.begin(), room.jobs.end(),
+                        [](const Job &job) { return job.material == Material::kBinder; })
+        ->seed;
+  };
+  EXPECT_EQ(binder(here), binder(elsewhere));
+  EXPECT_LT(Bare(SPHC_SIMULATED_BINDERS, 2).facesOf(Material::kBinder), here.facesOf(Material::kBinder))
+      << "people take some away";
 }
 
 TEST(SimulatedScene, DoublesAreEqualToTheLastTexel) {
