@@ -33,16 +33,19 @@ Vector3 pointInView(Random *random) {
   return {x * z, y * z, z};
 }
 
-ViewedPoints pointsInView(size_t count, Random *random) {
+ViewedPoints pointsInView(size_t count, Random *random, double wall_m) {
   ViewedPoints viewed;
-  for (size_t i = 0; i < count; ++i) viewed.points_m.push_back(pointInView(random));
+  for (size_t i = 0; i < count; ++i) {
+    const Vector3 point = pointInView(random);
+    viewed.points_m.push_back(wall_m == 0 ? point : Vector3(wall_m / point.z() * point));
+  }
   for (const Vector3 &point : viewed.points_m) viewed.centroid_m += point / static_cast<double>(count);
   return viewed;
 }
 
 PoseWorld makePoseWorld(const PoseWorldOptions &options) {
   Random random(options.seed);
-  const auto [points, centroid] = pointsInView(options.count, &random);
+  const auto [points, centroid] = pointsInView(options.count, &random, options.wall_m);
 
   PoseWorld world;
   world.camera_from_map.rotation = randomRotation(&random);

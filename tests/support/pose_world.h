@@ -17,6 +17,7 @@ struct PoseWorldOptions {
   double pixel_sigma_px = 0;  // noise across it
   double stated_depth_sigma_m = 0.01, stated_sideways_m = 0.005;  // what the correspondences say of their noise
   Vector3 centre_offset_m = Vector3::Zero();                      // of the sphere centre from the points' centroid
+  double wall_m = 0;  // other than 0: all points lie on a wall this far ahead, which is seen straight on
 };
 
 struct PoseWorld {
@@ -32,7 +33,7 @@ struct ViewedPoints {
   std::vector<Vector3> points_m;  // camera frame
   Vector3 centroid_m = Vector3::Zero();
 };
-ViewedPoints pointsInView(size_t count, Random *random);
+ViewedPoints pointsInView(size_t count, Random *random, double wall_m = 0);
 
 // Rotation angle, and distance of the camera centres.
 double rotationErrorRad(const Rigid &estimate, const Rigid &truth);

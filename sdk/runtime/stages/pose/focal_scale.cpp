@@ -45,22 +45,22 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Foc
   const double z = stated.point_m.z(), beyond_m = z - depth.mid_m;
   const double longer = 1 + (depth.correctionAt(z) + at.others.bias[0] + at.others.bias[1] * beyond_m) / z;
   const bool is_scaled = stated.centre_m.isZero(0);
-  const Vector3 sideways(stated.point_m.x(), stated.point_m.y(), 0);
-  Vector3 scaled = stated.point_m;
-  if (is_scaled) scaled += at.off * sideways;
 
   Correspondence c = given;
-  c.lifted.point_m = longer * scaled;
+  c.lifted.point_m = longer * stated.point_m;
+  if (is_scaled) c.lifted.point_m.head<2>() *= 1 + at.off;
   const double stretched = c.lifted.point_m.norm() / stated.point_m.norm();
   c.lifted.sideways_m *= stretched;
   c.lifted.along_m *= stretched * depth.noise_scale;
   const Residual r = residualOf(c, at.others.pose);
   if (!r.in_front || !(r.squared < kFocalGate * scale2)) return false;
 
+  // Taken at the foot, whose error does not go with the residual's: else noise tells a scale where nothing does.
   const Matrix3 across = acrossRay(c.lifted, r);
-  const Vector3 longer_by_bias = across * scaled / z;
+  const Vector3 longer_by_bias = across * r.foot_m / (longer * z);
+  const Vector3 scaled = across * Vector3(r.foot_m.x(), r.foot_m.y(), 0) / (1 + at.off);
   row->jacobian << across * crossMatrix(r.foot_m), -across, longer_by_bias, beyond_m * longer_by_bias,
-      is_scaled ? Vector3(longer * (across * sideways)) : Vector3(Vector3::Zero());
+      is_scaled ? scaled : Vector3(Vector3::Zero());
   row->whitened = r.whitened;
   row->weight = finalInformation(r.squared * kFinalScale2 / scale2);
   return true;

@@ -16,12 +16,14 @@ struct Seen {
   DepthCalibration depth;
 };
 
-Seen see(double stated_over_true, uint64_t seed = 1) {
+Seen see(double stated_over_true, uint64_t seed = 1, double wall_m = 0) {
   test::TestEstimator estimator;
   test::PoseWorldOptions options;
   options.seed = seed;
   options.depth_sigma_m = 0.01;
   options.pixel_sigma_px = 1;
+  options.wall_m = wall_m;
+  options.centre_offset_m.z() = -0.6 * wall_m;  // in the middle of the room
   Seen seen;
   seen.world = test::makePoseWorld(options);
   for (Correspondence &c : seen.world.correspondences) {
@@ -61,6 +63,14 @@ TEST(FocalScale, KnowsItsError) {
   EXPECT_GT(squares / kWorlds, 0.5);
   EXPECT_LT(squares / kWorlds, 1.5);
   EXPECT_LT(worst, 4);
+}
+
+// Of a wall that is seen straight on no focal length shows: the camera may stand nearer, or further off.
+TEST(FocalScale, IsNotReadOffTheNoiseOfAWall) {
+  constexpr uint64_t kWorlds = 30;
+  uint32_t doubtful = 0;
+  for (uint64_t seed = 1; seed <= kWorlds; ++seed) doubtful += scaleOf(see(1, seed, 2.5)).isBeyond(kDoubtful);
+  EXPECT_LT(doubtful, kWorlds / 3);
 }
 
 // A further camera has a focal length of its own.
