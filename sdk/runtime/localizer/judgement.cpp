@@ -60,6 +60,8 @@ Outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t m
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();
   // T = exp(xi) T_estimate moves the camera's place in the map by the translation part of xi alone.
   const double centre2 = estimate.covariance.bottomRightCorner<3, 3>().trace();
+  if (estimate.covariance.diagonal().minCoeff() < 0)
+    return Outcome::kUncertain;  // numbers beyond what rounding bears
   if (!(doubt2 * rotation2 < kMostRotationSigmaRad * kMostRotationSigmaRad) ||
       !(doubt2 * centre2 < kMostTranslationSigmaM * kMostTranslationSigmaM))
     return Outcome::kUncertain;

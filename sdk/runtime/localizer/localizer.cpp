@@ -202,13 +202,17 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
 
 // Makes best() what the frame is answered with: by what can be believed of it.
 void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work) {
-  const Known &known = frame.known;
   finder_.begin({&front_, &fusion_, tracker(), calibrator_.current(), between_.areApart()});
   was_ambiguous_ = false;
-  if (*faults & kContradictions) {
+  if (*faults & kContradictions)
     best().outcome = Outcome::kContradiction;
-    return;
-  }
+  else
+    findPose(frame.known, deadline, faults, work);
+  if (config_.tracks) compareWithTrack(frame, faults);
+  if (isOfAmbiguousTime(frame.known)) best().has_near_rival = true;
+}
+
+void Localizer::findPose(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
   finder_.find(known, deadline, work);
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
@@ -220,8 +224,6 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
   if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
   was_ambiguous_ = best().is_ambiguous && !best().isLocalized();
-  if (config_.tracks) compareWithTrack(frame, faults);
-  if (isOfAmbiguousTime(known)) best().has_near_rival = true;
 }
 
 // A wrong vertical may show in the pose, and may be why there is none.
@@ -245,7 +247,8 @@ void Localizer::checkFocalLength(const Deadline &deadline, Faults *faults, Work 
   if (isOfOtherFocalLength(best(), calibrator_.current(), deadline)) *faults |= kFocalDisagrees;
 }
 
-// With what earlier frames said of odometry, of the points and of the camera.
+// With what earlier frames said of odometry, of the points and of the camera.  Of every frame: what goes on from
+// frame to frame must see each step.
 void Localizer::compareWithTrack(const FrameInput &frame, Faults *faults) {
   odometry_.look(frame.color_time_ns, frame.known, best());
   if (odometry_.disagrees()) *faults |= kOdometryDisagrees;

@@ -75,6 +75,7 @@ class Localizer {
   Hypothesis &best() { return finder_.best(); }
   const Hypothesis &best() const { return finder_.best(); }
   void answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work);
+  void findPose(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
   void compareWithTrack(const FrameInput &frame, Faults *faults);

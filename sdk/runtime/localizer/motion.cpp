@@ -80,8 +80,12 @@ Step Trail::step(uint32_t steps) const {
   }
   Vector6 shares;
   shares << Vector3::Constant(sqrtOf(2 * turn.gain)), Vector3::Constant(sqrtOf(2 * shift.gain));
-  return {dt, dt * turn.a_second, dt * shift.a_second, shares.asDiagonal() * covariance() * shares.asDiagonal(),
-          0.5};
+  return {dt,
+          dt * turn.a_second,
+          dt * shift.a_second,
+          shares.asDiagonal() * covariance() * shares.asDiagonal(),
+          0.5,
+          2 * std::min(turn.gain, shift.gain)};
 }
 
 bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
@@ -106,8 +110,11 @@ bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const Unknown turn = unknownOf(ahead_s, step.seconds, kTurnRate, kTurnAcceleration),
                 shift = unknownOf(ahead_s, step.seconds, kSpeed, kAcceleration);
   const double of_step = steps * (steps + 2 * step.share_in_pose);
-  moved->covariance = carried(motion.covariance + of_step * step.covariance, {turned, Vector3::Zero()}) +
-                      diagonalOf(turn.way, shift.way);
+  // Where the errors of two poses mean out, they do so by as much along every axis: else no covariance is left.
+  const bool means_out = of_step < 0 && step.least_of_pose > 0;
+  const Matrix6 by_step = means_out ? Matrix6(step.least_of_pose * motion.covariance) : step.covariance;
+  moved->covariance =
+      carried(motion.covariance + of_step * by_step, {turned, Vector3::Zero()}) + diagonalOf(turn.way, shift.way);
   moved->angular_velocity_sigma_rad_s = hypotOf(turn.rate, steps_per_s * axisSigma(step.covariance, 0));
   moved->velocity_sigma_m_s = hypotOf(shift.rate, steps_per_s * axisSigma(step.covariance, 3));
   return true;

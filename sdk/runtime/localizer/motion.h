@@ -22,6 +22,7 @@ struct Step {
   Matrix6 covariance = Matrix6::Zero();  // as that of a result
   // Covariance of the errors of this step and of the pose it led to, over that of this step.
   double share_in_pose = 0;
+  double least_of_pose = 0;  // so much of the pose's covariance is in that of this step, along every axis
 };
 
 // The last poses, of one map or several, as they were found.

@@ -13,8 +13,6 @@ namespace {
 
 using namespace tuning;
 
-constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
-
 bool isVague(const Prediction &expected) {
   return expected.rotation_sigma_rad > kVagueTurnRad || expected.translation_sigma_m > kVagueShiftM;
 }
@@ -112,23 +110,34 @@ bool Tracker::rate(CameraRate *rate) const {
 bool Tracker::predict(Prediction *prediction) const {
   if (!has_pose_) return false;
   prediction->map = last_.map;
-  double turn = 0, shift = 0, poses = 1;  // standard deviations; those of poses count so many times
   Rigid moved;
   if (last_.is_carried) {
     moved = last_.moved;
-    turn = last_.turnSigma();
-    shift = last_.shiftSigma();
+    prediction->rotation_sigma_rad = hypotOf(last_.turnSigma(), rotation_sigma_rad_);
+    prediction->translation_sigma_m = hypotOf(last_.shiftSigma(), translation_sigma_m_);
   } else {
     const double dt = secondsOf(elapsedNs(last_.time_ns, time_ns_));
-    if (has_velocity_) moved = {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_};
-    if (has_velocity_) poses = kTwoPoses;
-    turn = has_velocity_ ? 0.5 * kTurnAcceleration * dt * dt : kTurnRate * dt;
-    shift = has_velocity_ ? 0.5 * kAcceleration * dt * dt : kSpeed * dt;
+    const Ahead turn = ahead(dt, rotation_sigma_rad_, turn_, kTurnRate, kTurnAcceleration),
+                shift = ahead(dt, translation_sigma_m_, shift_, kSpeed, kAcceleration);
+    if (turn.is_steady) moved.rotation = rotationFromVector(dt * turn_.a_second);
+    if (shift.is_steady) moved.translation_m = dt * shift_.a_second;
+    prediction->rotation_sigma_rad = turn.sigma;
+    prediction->translation_sigma_m = shift.sigma;
   }
   prediction->camera_from_map = moved * last_.camera_from_map;
-  prediction->rotation_sigma_rad = hypotOf(turn, poses * rotation_sigma_rad_);
-  prediction->translation_sigma_m = hypotOf(shift, poses * translation_sigma_m_);
   return true;
+}
+
+// Of a + r (a - b), where a and b are the poses that a rate is of: a short step says little of a long one.
+Tracker::Ahead Tracker::ahead(double dt, double pose_sigma, const StepRate &rate, double most_rate,
+                              double acceleration) const {
+  const Ahead anyhow = {false, hypotOf(most_rate * dt, pose_sigma)};
+  if (!has_velocity_) return anyhow;
+  const double r = dt / velocity_s_, accelerated = 0.5 * acceleration * dt * std::max(dt, velocity_s_);
+  const double now2 = rate.now * rate.now, before2 = rate.before * rate.before;
+  const double of_rate2 = r * r * (now2 + before2) + 2 * r * now2;
+  const Ahead steady = {true, sqrtOf(pose_sigma * pose_sigma + of_rate2 + accelerated * accelerated)};
+  return steady.sigma < anyhow.sigma ? steady : anyhow;
 }
 
 bool Tracker::isSure() const {
@@ -173,18 +182,23 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, 
   const double dt = secondsOf(elapsedNs(last_.time_ns, time_ns_));
   // Across maps the error of their transforms is no velocity: the one from before holds.
   const bool is_measured = !went_over_;
+  const double rotation_sigma_rad =
+      hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
+  const double translation_sigma_m =
+      hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
   has_velocity_ = agrees && dt <= kSteadySeconds && (is_measured || has_velocity_);
   if (has_velocity_ && is_measured) {
     const Rigid moved = estimate.camera_from_map * last_.camera_from_map.inverse();
-    turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
-    velocity_m_s_ = moved.translation_m / dt;
+    turn_ = {vectorFromRotation(moved.rotation) / dt, rotation_sigma_rad_, rotation_sigma_rad};
+    shift_ = {moved.translation_m / dt, translation_sigma_m_, translation_sigma_m};
+    velocity_s_ = dt;
   }
   steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
   has_pose_ = true;
   last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
   last_.between_m = between_m;
-  rotation_sigma_rad_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
-  translation_sigma_m_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
+  rotation_sigma_rad_ = rotation_sigma_rad;
+  translation_sigma_m_ = translation_sigma_m;
   if (!agrees)
     best_.inliers = 0;
   else if (best_.map != map || estimate.inliers >= support())

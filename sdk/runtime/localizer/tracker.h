@@ -96,6 +96,18 @@ class Tracker {
   }
 
  private:
+  // A rate of the camera's step between two poses, in its own frame.
+  struct StepRate {
+    Vector3 a_second = Vector3::Zero();
+    double before = 0, now = 0;  // of the two poses, 1 sigma an axis
+  };
+  // What is known of the camera after `dt`: by the rate of the last step, or where that says less, by how fast
+  // heads are.
+  struct Ahead {
+    bool is_steady;
+    double sigma;  // an axis
+  };
+  Ahead ahead(double dt, double pose_sigma, const StepRate &rate, double most_rate, double acceleration) const;
   Jump jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const;
   bool jumpsFrom(const CarriedPose &pose, uint32_t map, const Rigid &found) const;
   double support() const;
@@ -118,9 +130,10 @@ class Tracker {
   int64_t trusted_time_ns_ = 0;
 
   bool has_velocity_ = false;
-  Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
-  bool went_over_ = false;                                                 // to another map, since the last pose
-  uint32_t steady_ = 0;  // steps between poses since the last jump or pause
+  StepRate turn_, shift_;   // rad, m
+  double velocity_s_ = 0;   // how long that step took
+  bool went_over_ = false;  // to another map, since the last pose
+  uint32_t steady_ = 0;     // steps between poses since the last jump or pause
 };
 
 }  // namespace sphc

@@ -54,6 +54,13 @@ TEST(Judgement, WhatRestsOnFewMatchesIsUncertain) {
   EXPECT_EQ(judgePose(evidence, estimate, 10), Outcome::kUncertain);
 }
 
+// As of a depth noise of micrometres.
+TEST(Judgement, ANegativeVarianceIsUncertain) {
+  Estimate estimate = sureEstimate(80);
+  estimate.covariance(4, 4) = -1e-6;
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kUncertain);
+}
+
 TEST(Judgement, AVaguePoseIsUncertain) {
   Estimate estimate = sureEstimate(80);
   estimate.covariance(4, 4) = 0.07 * 0.07;

@@ -40,7 +40,8 @@ class Walk {
       prior.flags = SPHC_PRIOR_ODOMETRY;
       const Rigid here = sceneViewpoint(viewpoint - odometry_behind_);
       prior.odometry_from_camera = rigidToC(odometry_is_inverted_ ? here : here.inverse());
-      for (double &shift_m : prior.odometry_from_camera.t_m) shift_m *= odometry_scale_;
+      for (double &shift_m : prior.odometry_from_camera.t_m)
+        shift_m = odometry_scale_ * shift_m + odometry_shift_m_;
       prior.odometry_rotation_sigma_rad = 1e-3;
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
@@ -72,6 +73,8 @@ class Walk {
   // Odometry that tells so many viewpoints less than there were.
   void keepOdometryBehind(uint32_t viewpoints) { odometry_behind_ = viewpoints; }
   void scaleOdometry(double scale) { odometry_scale_ = scale; }
+  // From now on in a frame of its own that lies elsewhere, as after a loop is closed.
+  void shiftOdometry(double shift_m) { odometry_shift_m_ = shift_m; }
   void invertOdometry() { odometry_is_inverted_ = true; }
   // From now on all depths are so many times as large.
   void scaleDepth(double scale) { depth_scale_ = scale; }
@@ -115,7 +118,7 @@ class Walk {
   bool odometry_is_inverted_ = false;
   double depth_scale_ = 1;
   double zoom_ = 1;
-  double odometry_scale_ = 1;
+  double odometry_scale_ = 1, odometry_shift_m_ = 0;
   double upper_share_ = 1;
   uint32_t below_ = 0;
 };
@@ -222,6 +225,19 @@ TEST(LocalizerTracking, OdometryOfAnotherScaleIsNamedAndVetoesNothing) {
     EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED) << frame;
     EXPECT_NE(result.state, SPHC_STATE_TRACKING) << frame;
   }
+}
+
+// A frame whose depth nobody believes still is a step of odometry.
+TEST(LocalizerTracking, OdometryThatJumpsWhileDepthIsWrongIsNoScaleOfDepth) {
+  Walk walk(trackingConfig());
+  walk.useOdometry();
+  for (uint32_t frame = 0; frame < 24; ++frame) walk.see(frame % 8 < 4 ? frame % 8 : 8 - frame % 8);
+  walk.shiftOdometry(5);
+  walk.scaleDepth(20);
+  ASSERT_EQ(walk.see(0).outcome, SPHC_OUTCOME_CONTRADICTION);
+  walk.scaleDepth(1);
+  for (uint32_t frame = 25; frame < 60; ++frame)
+    EXPECT_EQ(walk.see(frame % 8 < 4 ? frame % 8 : 8 - frame % 8).faults, 0u) << frame;
 }
 
 // 20 cm farther than expected, where half a tile may be meant.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
@@ -103,6 +104,29 @@ TEST(Motion, BetweenTwoPosesTheirErrorsMeanOut) {
   EXPECT_LT(sigma(between.covariance, 3), 0.003);
   ASSERT_TRUE(moveTo(kStart + kMotionFrame, motion, &ahead));
   EXPECT_GT(sigma(ahead.covariance, 3), 0.003 * std::sqrt(5.0));  // of 2 a - b
+}
+
+// Turn and shift of a pose go together, and the two rates are known as well as their steps were.
+TEST(Motion, BetweenTwoPosesACovarianceIsLeft) {
+  Matrix6 covariance = diagonalOf(0.002, 0.004);
+  covariance(1, 3) = covariance(3, 1) = 0.99 * 0.002 * 0.004;
+  for (const int64_t frame_ns : {kMotionFrame / 3, kMotionFrame}) {
+    Trail trail;
+    Motion motion = steadyMotion();
+    for (int i = -4; i <= 0; ++i)
+      trail.add(kStart + i * frame_ns, steady(1e-9 * static_cast<double>(i * frame_ns)), covariance);
+    motion.covariance = covariance;
+    motion.step = trail.step(4);
+    for (const double part : {0.25, 0.5, 0.75}) {
+      MovedPose between;
+      ASSERT_TRUE(moveTo(kStart - static_cast<int64_t>(part * static_cast<double>(frame_ns)), motion, &between));
+      const Matrix6 correlation = between.covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() *
+                                  between.covariance *
+                                  between.covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(correlation).eigenvalues()[0], 1e-4)
+          << frame_ns << " " << part;
+    }
+  }
 }
 
 TEST(Motion, EndsASecondAfterThePoseAndATenthBeforeTheFrame) {

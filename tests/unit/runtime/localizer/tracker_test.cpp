@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tests/support/arena_memory.h"
+#include "tests/support/random_numbers.h"
 
 namespace sphc {
 namespace {
@@ -372,6 +373,42 @@ TEST_F(TrackerTest, SteadyMotionIsPredicted) {
   EXPECT_LT(off.translation_m.norm(), 0.002);  // a turning camera's step is not quite the same each time
   EXPECT_LT(expected.rotation_sigma_rad, 0.02);
   EXPECT_LT(expected.translation_sigma_m, 0.03);
+}
+
+// Over a bus that is busy, or with images left out.
+TEST_F(TrackerTest, UnevenTimesOfSteadyMotionAreNoJumps) {
+  Random random(3);
+  for (const double short_s : {0.025, 0.005, 0.001}) {
+    tracker_.reset();
+    double time_s = 1;
+    for (int i = 0; i < 200; ++i) {
+      time_s += i % 2 ? short_s : 0.05 - short_s;
+      const Rigid pose =
+          poseAt(0.1 * time_s + 0.005 * test::normal(&random), 0.7 * time_s + 0.003 * test::normal(&random));
+      const Jump jump = bring(static_cast<int64_t>(1e9 * time_s), pose);
+      if (i < 2) continue;
+      EXPECT_EQ(jump.events, Events{0}) << short_s << " " << i << " " << jump.shift_m << " " << jump.turn_rad;
+      EXPECT_EQ(tracker_.state(), TrackingState::kTracking) << short_s << " " << i;
+    }
+  }
+}
+
+// After a short step nobody knows the velocity, but how fast a head is.
+TEST_F(TrackerTest, AShortStepSaysLittleOfALongOne) {
+  constexpr double kPoseM = 0.0051, kHeadM = 0.7 * 0.02;
+  const auto sigmaAfter = [&](int64_t step_ns) {
+    tracker_.reset();
+    bring(kSecond - step_ns, poseAt(0));
+    bring(kSecond, poseAt(0));
+    tracker_.advance(kSecond + 20000000, nullptr);
+    Prediction expected;
+    EXPECT_TRUE(tracker_.predict(&expected));
+    return expected.translation_sigma_m;
+  };
+  EXPECT_NEAR(sigmaAfter(20000000), kPoseM * std::sqrt(5.0), 3e-4);
+  EXPECT_NEAR(sigmaAfter(16000000), kPoseM * std::hypot(2.25, 1.25), 3e-4);
+  EXPECT_NEAR(sigmaAfter(5000000), std::hypot(kHeadM, kPoseM), 3e-4);
+  EXPECT_NEAR(sigmaAfter(100000), std::hypot(kHeadM, kPoseM), 3e-4);
 }
 
 TEST_F(TrackerTest, WithoutVelocityLessIsKnown) {
