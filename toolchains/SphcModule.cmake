@@ -29,7 +29,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   string(APPEND flags " -march=armv8-a+crypto")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   string(APPEND flags " -mfp16-format=ieee") # Highway names the type where the processor has it
-elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^i[3-6]86$")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4) # also by -m32
   string(APPEND flags " -msse2 -mfpmath=sse") # x87 computes with more digits than the others
 endif()
 set(CMAKE_C_FLAGS "${flags} ${CMAKE_C_FLAGS}")

@@ -2,7 +2,7 @@
 #   dispatch  all that Highway has for this architecture; the best is picked at run time.  Links libhwy.
 #   static    what the compiler's flags allow.  Headers of Highway alone.
 #   scalar    single lanes.  Headers of Highway alone.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
   set(default dispatch)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm" AND NOT CMAKE_SYSTEM_PROCESSOR MATCHES "arm64")
   set(default scalar)
