@@ -24,9 +24,10 @@ def dll(machine):
 
 
 MACH_O, UNIVERSAL = b"\xcf\xfa\xed\xfe" + bytes(28), b"\xca\xfe\xba\xbe" + bytes(28)
-OF_IOS = archive(b"a table.", b"odd", MACH_O)
+OF_APPLE = archive(b"a table.", b"odd", MACH_O)
 TAKEN = {"android-arm64": (elf(183),), "android-arm": (elf(40),), "android-x86_64": (elf(62),), "linux-x86_64": (elf(62),),
-         "windows-x86_64": (dll(b"\x64\x86"),), "macos": (MACH_O, UNIVERSAL), "ios": (OF_IOS, UNIVERSAL)}
+         "windows-x86_64": (dll(b"\x64\x86"),), "macos": (MACH_O, UNIVERSAL),
+         **dict.fromkeys(("ios", "tvos", "visionos"), (OF_APPLE, UNIVERSAL))}
 NEVER_TAKEN = (b"", b"words", elf(243), archive(b"a table.", b"odd", elf(62)), dll(b"\x4c\x01"))
 
 

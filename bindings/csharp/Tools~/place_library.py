@@ -3,7 +3,7 @@
 
     place_library.py PLATFORM LIBRARY      such as: place_library.py android-arm64 build/android/lib/libspherecloud.so
 
-iOS wants the static library, libspherecloud.a; all others want the shared one.  What is placed is not for git: a package
+iOS, tvOS and visionOS want the static library, libspherecloud.a; all others want the shared one.  What is placed is not for git: a package
 that is handed on as a folder or a .tgz has it inside.
 """
 import hashlib
@@ -18,6 +18,8 @@ KINDS = {
     "android-arm": ("an ELF file of ARM",),
     "android-x86_64": ("an ELF file of x86_64",),
     "ios": (ARCHIVE, UNIVERSAL),
+    "tvos": (ARCHIVE, UNIVERSAL),
+    "visionos": (ARCHIVE, UNIVERSAL),
     "linux-x86_64": ("an ELF file of x86_64",),
     "windows-x86_64": ("a DLL of x86_64",),
     "macos": (MACH_O, UNIVERSAL),
@@ -29,6 +31,8 @@ PLATFORMS = {
     "android-arm": ("Android/armeabi-v7a/libspherecloud.so", "Android: Android", "ARMv7", None),
     "android-x86_64": ("Android/x86_64/libspherecloud.so", "Android: Android", "X86_64", None),
     "ios": ("iOS/libspherecloud.a", "iPhone: iOS", "AnyCPU", None),
+    "tvos": ("tvOS/libspherecloud.a", "tvOS: tvOS", "AnyCPU", None),
+    "visionos": ("VisionOS/libspherecloud.a", "VisionOS: VisionOS", "AnyCPU", None),
     "linux-x86_64": ("Linux/x86_64/libspherecloud.so", "Standalone: Linux64", "x86_64", "Linux"),
     "windows-x86_64": ("Windows/x86_64/spherecloud.dll", "Standalone: Win64", "x86_64", "Windows"),
     "macos": ("macOS/libspherecloud.dylib", "Standalone: OSXUniversal", "AnyCPU", "OSX"),
