@@ -16,11 +16,13 @@ public unsafe struct CameraIntrinsics {
   public uint ParamCount;
   internal fixed double @params[12];
 
-  /// <summary>Parameters in the order of the model, such as fx, fy, cx, cy. Nothing is checked before the camera is
-  /// used, or <see cref="Check"/> is called.</summary>
+  /// <summary>Parameters in the order of the model, such as fx, fy, cx, cy. Throws ArgumentException where the fields cannot
+  /// hold what is given; the rest is checked when the camera is used, or <see cref="Check"/> is called.</summary>
   public CameraIntrinsics(CameraModel model, int width, int height, params double[] parameters) : this() {
     if (parameters == null) throw new ArgumentNullException(nameof(parameters));
     if (parameters.Length > 12) throw new ArgumentException("a camera has 12 parameters at most", nameof(parameters));
+    if (width < 0 || height < 0)
+      throw new ArgumentException("a camera has " + width + " x " + height + " pixels; give the width and the height of its image");
     Model = model;
     Width = (uint)width;
     Height = (uint)height;

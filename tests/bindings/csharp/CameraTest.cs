@@ -25,9 +25,11 @@ internal static class CameraTest {
   }
 
   public static void WrongCamerasAreNamed() {
-    CameraIntrinsics noSize = CameraIntrinsics.Pinhole(-1, 480, 500, 500, 320, 240);
+    CameraIntrinsics noSize = CameraIntrinsics.Pinhole(0, 480, 500, 500, 320, 240);
     Expect.Equal(Status.Argument, Expect.Throws<SpherecloudException>(noSize.Check, "width").Status, "status");
     Expect.Throws<SpherecloudException>(new CameraIntrinsics(CameraModel.Brown5, 640, 480, 1, 1, 1, 1).Check, "param_count");
+    Expect.Throws<ArgumentException>(() => CameraIntrinsics.Pinhole(-1, 480, 500, 500, 320, 240), "-1 x 480");
+    Expect.Throws<ArgumentException>(() => CameraIntrinsics.Pinhole(640, -480, 500, 500, 320, 240), "640 x -480");
     Expect.Throws<ArgumentException>(() => new CameraIntrinsics(CameraModel.Brown8, 1, 1, new double[13]), "12");
     Expect.Throws<ArgumentNullException>(() => new CameraIntrinsics(CameraModel.Brown8, 1, 1, null), "parameters");
   }
