@@ -133,6 +133,8 @@ class Localizer:
                  "color_band": color_band, "color_row_time_ns": color_row_time_ns, "log_level": log_level}
         self._c, self._callbacks = interface(), _Callbacks(log, clock)
         self._process, self._made_result = self._c.sphc_localizer_process, _interface.sphc_localizer_result.from_buffer_copy
+        for name, list_of in ("cameras", cameras), ("depth_cameras", depth_cameras):
+            of_type(list_of, collections.abc.Sequence, name, "; give a list")  # type: ignore[type-abstract]
         self._cameras = (_interface.sphc_localizer_camera * len(cameras))(
             *(of_type(camera, RigCamera, "one of cameras").raw() for camera in cameras))
         self._depth_cameras = (_interface.sphc_localizer_depth_camera * len(depth_cameras))(

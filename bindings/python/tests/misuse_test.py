@@ -136,6 +136,7 @@ class Misuse(unittest.TestCase):
                      lambda: sphc.Localizer(session.RIG, log=3), lambda: sphc.Localizer(session.RIG, clock=3),
                      lambda: sphc.Localizer(session.RIG, cameras=[session.RIG]),
                      lambda: sphc.Localizer(session.RIG, depth_cameras=[session.RIG]),
+                     lambda: sphc.Localizer(session.RIG, cameras=1), lambda: sphc.Localizer(session.RIG, depth_cameras=1),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, deadline_us="soon"))):
             with self.assertRaisesRegex(TypeError, "not "):
                 call()
