@@ -88,21 +88,27 @@ sphc_libcamera_name nameOf(const Camera &camera) {
   return name;
 }
 
-Device::Device(const char *id) : manager_(sharedManager()) {
-  for (const std::shared_ptr<Camera> &camera : manager_->cameras())
-    if (!camera_ && (!id || camera->id() == id)) camera_ = camera;
-  if (!camera_)
-    refuse(SPHC_E_DEVICE, std::string("no camera ") + (id ? id : "") + " of " +
-                              std::to_string(manager_->cameras().size()) +
-                              "; is it plugged in, and may this user read /dev/video* and /dev/media*?");
-  id_ = camera_->id();
-  const int error = camera_->acquire();
+// What fails here is undone by the destructor, since Device() has ended.
+Device::Device(const char *id) : Device() {
+  const std::shared_ptr<Camera> camera = find(id);
+  id_ = camera->id();
+  const int error = camera->acquire();
   if (error) refuse(SPHC_E_DEVICE, id_ + ": " + errorText(error) + "; another program has it");
+  camera_ = camera;
   camera_->requestCompleted.connect(this, &Device::completed);
   camera_->disconnected.connect(this, &Device::disconnected);
 }
 
+std::shared_ptr<Camera> Device::find(const char *id) const {
+  const std::vector<std::shared_ptr<Camera>> cameras = manager_->cameras();
+  for (const std::shared_ptr<Camera> &camera : cameras)
+    if (!id || camera->id() == id) return camera;
+  refuse(SPHC_E_DEVICE, std::string("no camera ") + (id ? id : "") + " of " + std::to_string(cameras.size()) +
+                            "; is it plugged in, and may this user read /dev/video* and /dev/media*?");
+}
+
 Device::~Device() {
+  if (!camera_) return;
   stop();
   freeBuffers();
   camera_->requestCompleted.disconnect(this);

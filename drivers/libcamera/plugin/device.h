@@ -47,6 +47,8 @@ class Device {
   void stop();
 
  private:
+  Device() : manager_(sharedManager()) {}
+  std::shared_ptr<libcamera::Camera> find(const char *id) const;
   void makeRequests();
   void freeBuffers();
   // These two run on the manager's thread.
@@ -54,7 +56,7 @@ class Device {
   void disconnected();
 
   std::shared_ptr<libcamera::CameraManager> manager_;
-  std::shared_ptr<libcamera::Camera> camera_;
+  std::shared_ptr<libcamera::Camera> camera_;  // acquired; null before
   std::string id_;
   std::unique_ptr<libcamera::CameraConfiguration> configuration_;
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;

@@ -21,6 +21,7 @@ const MappedBuffer::Mapping *MappedBuffer::mapping(int file) {
     if (known.file == file) return &known;
   const off_t bytes = lseek(file, 0, SEEK_END);
   if (bytes <= 0) return nullptr;
+  mappings_.reserve(mappings_.size() + 1);  // may throw, and what is mapped then would stay so
   void *data = mmap(nullptr, static_cast<size_t>(bytes), PROT_READ, MAP_SHARED, file, 0);
   if (data == MAP_FAILED) return nullptr;
   mappings_.push_back({file, data, static_cast<size_t>(bytes)});

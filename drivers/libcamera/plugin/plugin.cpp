@@ -2,6 +2,7 @@
 #include "../plugin.h"
 
 #include <exception>
+#include <memory>
 
 #include "device.h"
 #include "drivers/pixels/explain.h"
@@ -39,9 +40,9 @@ sphc_status list(sphc_libcamera_name *names, uint32_t capacity, uint32_t *count,
 
 sphc_status open(const char *id, sphc_libcamera_device **device, sphc_libcamera_name *name, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    Device *opened = new Device(id);
+    auto opened = std::make_unique<Device>(id);
     *name = opened->name();
-    *device = reinterpret_cast<sphc_libcamera_device *>(opened);
+    *device = reinterpret_cast<sphc_libcamera_device *>(opened.release());
     return SPHC_OK;
   });
 }
