@@ -44,10 +44,12 @@ Player::Slot *Player::freeSlot() {
 // False when the timeout runs out first.
 bool Player::waitUntilDue(int64_t time_ns, uint32_t timeout_us) const {
   if (mode_ == SPHC_REPLAY_FAST) return true;
-  const Clock::time_point due = started_ + std::chrono::nanoseconds(time_ns - events_.front().time_ns);
-  const Clock::time_point until = Clock::now() + std::chrono::microseconds(timeout_us);
-  std::this_thread::sleep_until(std::min(due, until));
-  return due <= Clock::now();
+  // Recorded times may be as late as there are, so none is added to the clock.
+  const std::chrono::nanoseconds since_first(time_ns - events_.front().time_ns);
+  const std::chrono::nanoseconds left = since_first - (Clock::now() - started_);
+  const std::chrono::microseconds most(timeout_us);
+  std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(left, most));
+  return left <= most;
 }
 
 sphc_status Player::acquire(uint32_t timeout_us, sphc_capture &capture) {

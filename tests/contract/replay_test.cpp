@@ -162,6 +162,23 @@ TEST_F(Replay, SaysAgainUntilTheTimeHasCome) {
   EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(30));
 }
 
+// The latest that a list can tell: more than the host's clock can count on from now.
+TEST_F(Replay, ATimeInCenturiesHasNotCome) {
+  const test::TempFolder slow;
+  writeTinyRecording(slow.path().string(), 2);
+  slow.write("rgb.txt", "0.0 rgb/000000.png\n9223372035.9 rgb/000001.png\n");
+  slow.write("depth.txt", "0.0 depth/000000.png\n");
+  config_.mode = SPHC_REPLAY_REAL_TIME;
+  const OpenReplay replay(slow.path().string(), nullptr, &config_);
+  sphc_source source;
+  ASSERT_EQ(sphc_replay_source(replay.get(), &source), SPHC_OK);
+  ASSERT_EQ(source.start(source.self), SPHC_OK);
+  sphc_capture capture;
+  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
+  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
+  EXPECT_EQ(source.acquire(source.self, 1000, &capture), SPHC_AGAIN);
+}
+
 TEST_F(Replay, ChecksItsArguments) {
   const OpenReplay replay(folder());
   sphc_localizer_frame frame;
