@@ -20,7 +20,8 @@ const char *cure(int error) {
     case ENXIO:
       return "is the camera plugged in? `spherecloud devices` lists what is there";
     case ENODEV:
-      return "the camera was unplugged; stop, close, and open it again once it is back";
+      return "the camera was unplugged; stop, close, and open it again once it is back, by bus= or card=: its node "
+             "may have another number";
     case EACCES:
     case EPERM:
       return "no permission; add the user to the group that owns the node, mostly `video`";

@@ -91,8 +91,9 @@ void sphc_v4l2_close(sphc_v4l2 **v4l2);
 
 /* Fills *source (struct_size too) with the contract of spherecloud_capture.h; valid until sphc_v4l2_close.
  * start: E_DEVICE (such as too little USB bandwidth).  acquire: SPHC_AGAIN when no good frame came within the
- * timeout: the message says so, and why the last bad one was left out; E_DEVICE: the next acquire goes on;
- * E_DEVICE_LOST: unplugged, or the signal changed its size: stop, close, open again.  Errors: ARGUMENT. [exclusive]
+ * timeout: the message says so, and why the last bad one was left out; E_DEVICE: the next acquire goes on, or the
+ * kernel has given the stream up, and the message says to stop and start; E_DEVICE_LOST: unplugged, or the signal
+ * changed its size: stop, close, open again, by bus or card where it was unplugged.  Errors: ARGUMENT. [exclusive]
  */
 sphc_status sphc_v4l2_source(sphc_v4l2 *v4l2, sphc_source *source);
 

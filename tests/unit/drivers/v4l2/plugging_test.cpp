@@ -124,6 +124,7 @@ TEST(Plugging, UnpluggedWhileRunningIsLostUntilItIsOpenedAgain) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(running.opened.acquire(&capture), SPHC_E_DEVICE_LOST);
     EXPECT_THAT(running.opened.text(), HasSubstr("unplugged; stop, close, and open it again"));
+    EXPECT_THAT(running.opened.text(), HasSubstr("by bus= or card=: its node may have another number"));
   }
   running.opened.release(kept);
   running.opened.stop();
