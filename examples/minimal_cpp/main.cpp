@@ -8,6 +8,8 @@
 #include <exception>
 #include <memory>
 #include <spherecloud/spherecloud.hpp>
+#include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -23,6 +25,15 @@ Replay openReplay(const char *folder) {
   return Replay(replay);
 }
 
+// What refuses a map does not know its path.
+spherecloud::Map openMap(const char *path, spherecloud::AlignedBuffer *file) {
+  spherecloud::Map map;
+  spherecloud::Status status = spherecloud::readFile(path, file);
+  if (status.ok()) status = spherecloud::Map::open(file->data(), file->size(), &map);
+  if (!status.ok()) throw std::runtime_error(std::string(path) + ": " + status.text());
+  return map;
+}
+
 sphc_localizer_config configFor(const sphc_replay *replay) {
   sphc_localizer_config config = spherecloud::defaultConfig();
   spherecloud::Status(sphc_replay_rig(replay, &config.rig)).orThrow();
@@ -32,10 +43,8 @@ sphc_localizer_config configFor(const sphc_replay *replay) {
 void localizeAll(const char *map_path, const char *folder) {
   const Replay replay = openReplay(folder);
   spherecloud::AlignedBuffer file;
-  spherecloud::Map map;
+  const spherecloud::Map map = openMap(map_path, &file);
   spherecloud::Localizer localizer;
-  spherecloud::readFile(map_path, &file).orThrow();
-  spherecloud::Map::open(file.data(), file.size(), &map).orThrow();
   spherecloud::Localizer::make(configFor(replay.get()), map, &localizer).orThrow();
 
   sphc_localizer_result result = spherecloud::emptyResult();

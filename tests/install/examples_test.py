@@ -33,6 +33,8 @@ class Examples(unittest.TestCase):
         for what in ("empty", "walk"):
             self.refused(1, NO_MAP, "minimal_c", what, "walk")
             self.refused(1, NO_MAP, "live_c", "color", "depth", "walk/calibration.json", what)
+        for what in ("empty", "walk", "missing"):
+            self.refused(1, f"{what}: ", "minimal_cpp", what, "walk")
 
     def test_wrong_words(self):
         for words in (["few"], ["color", "depth", "calibration", "map", "many"], ["color", "depth", "calibration", "map", "0"]):
