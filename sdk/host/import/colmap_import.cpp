@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "host/import/colmap_descriptors.h"
@@ -31,10 +32,19 @@ double sigmaOf(const ColmapModel &model, const ColmapPoint &point, double metres
   return metres_per_unit * std::sqrt(information.inverse().trace() / 3);
 }
 
-bool isNear(const ColmapModel &model, const ColmapPoint &point, double metres_per_unit) {
+// A track may have two keypoints of one image.
+uint32_t imagesThatSaw(const ColmapPoint &point) {
+  std::set<uint32_t> images;
+  for (const ColmapObservation &o : point.track) images.insert(o.image);
+  return static_cast<uint32_t>(images.size());
+}
+
+// Images from one spot tell a direction alone.
+bool hasPlace(const ColmapModel &model, const ColmapPoint &point, double metres_per_unit, double sigma_m) {
   for (const ColmapObservation &o : point.track) {
     const Vector3 in_camera = model.images.at(o.image).camera_from_model * point.position;
-    if (!(in_camera.z() > 0 && metres_per_unit * in_camera.norm() < kReachM)) return false;
+    const double distance_m = metres_per_unit * in_camera.norm();
+    if (!(in_camera.z() > 0 && distance_m < kReachM && sigma_m < distance_m)) return false;
   }
   return true;
 }
@@ -73,12 +83,14 @@ PointModel importColmap(const ColmapImportOptions &options, const Progress &prog
   PointModel points;
   for (const auto &[id, seen] : descriptors) {
     const ColmapPoint &point = model.points.at(id);
-    if (point.track.size() < options.min_observations || !isNear(model, point, summary->metres_per_unit)) continue;
     ModelPoint kept;
+    kept.sigma_m = sigmaOf(model, point, summary->metres_per_unit);
+    kept.observations = imagesThatSaw(point);
+    if (kept.observations < options.min_observations ||
+        !hasPlace(model, point, summary->metres_per_unit, kept.sigma_m))
+      continue;
     kept.position_m = summary->metres_per_unit * (summary->world_from_model_axes * point.position);
     kept.descriptor = representative(seen);
-    kept.sigma_m = sigmaOf(model, point, summary->metres_per_unit);
-    kept.observations = static_cast<uint32_t>(point.track.size());
     points.points.push_back(kept);
   }
   PointModel result = withoutNearDuplicates(std::move(points), kModelNearDuplicates);

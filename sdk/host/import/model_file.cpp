@@ -23,7 +23,6 @@ constexpr char kMagic[8] = {'S', 'P', 'H', 'C', 'P', 'R', 'I', 'V'};
 constexpr uint16_t kVersion = 1;
 constexpr size_t kPointBytes = 4 * sizeof(double) + sizeof(uint32_t) + kDescriptorBytes;
 constexpr uint32_t kMostPoints = 1u << 24;
-constexpr double kFarthestPointM = 1e6;
 static_assert(kPointBytes == 164 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "docs/private_model.md");
 
 struct Header {
@@ -71,15 +70,15 @@ void checkHeader(const Header &header, const std::vector<uint8_t> &bytes) {
     refuse("it is damaged; take the backup, or map the recording again");
 }
 
+bool isReadable(const ModelPoint &point) { return isInRange(point) && point.observations > 0; }
+
 ModelPoint pointAt(const uint8_t **at) {
   ModelPoint point;
   for (int i = 0; i < 3; ++i) take(at, &point.position_m[i]);
   take(at, &point.sigma_m);
   take(at, &point.observations);
   take(at, &point.descriptor.bytes);
-  const bool valid = point.position_m.allFinite() && point.position_m.norm() < kFarthestPointM &&
-                     point.sigma_m >= 0 && point.sigma_m < kFarthestPointM && point.observations > 0;
-  if (!valid) refuse("a point is out of range; take the backup, or map the recording again");
+  if (!isReadable(point)) refuse("a point is out of range; take the backup, or map the recording again");
   return point;
 }
 
@@ -141,6 +140,7 @@ std::vector<uint8_t> encodeModel(const PointModel &model) {
   std::vector<uint8_t> bytes(sizeof(Header) + count * kPointBytes);
   uint8_t *at = bytes.data() + sizeof(Header);
   for (const ModelPoint &point : model.points) {
+    if (!isReadable(point)) refuse("a point lies nowhere near, or nobody knows where; are poses in metres?");
     for (int i = 0; i < 3; ++i) put(point.position_m[i], &at);
     put(point.sigma_m, &at);
     put(point.observations, &at);

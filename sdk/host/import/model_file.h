@@ -8,6 +8,7 @@
 
 namespace sphc::host {
 
+// Throws std::runtime_error for what could not be read again.
 std::vector<uint8_t> encodeModel(const PointModel &model);
 // What encodeModel made, to the bit.  Throws std::runtime_error, with cause and cure and without the file's
 // content, for anything else.

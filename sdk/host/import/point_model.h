@@ -21,4 +21,15 @@ struct PointModel {
   sphc_band band = SPHC_BAND_VISIBLE;  // of the images that described them
 };
 
+// Bounds of what files keep and maps are made of: whoever writes a point asks first, so that it can be read again.
+constexpr double kFarthestM = 1e6;
+
+inline bool isInRange(const Vector3 &position_m) {
+  return position_m.allFinite() && position_m.norm() < kFarthestM;
+}
+
+inline bool isInRange(const ModelPoint &point) {
+  return isInRange(point.position_m) && point.sigma_m >= 0 && point.sigma_m < kFarthestM;
+}
+
 }  // namespace sphc::host

@@ -23,7 +23,6 @@ namespace sphc::host {
 namespace {
 
 constexpr int64_t kApplication = 0x53504C47, kFirstVersion = 1, kVersion = 3;  // "SPLG"
-constexpr double kFarthestM = 1e6;
 
 const char kSchema[] = R"(
 CREATE TABLE owner (secret_key BLOB NOT NULL);
@@ -126,8 +125,6 @@ void checkContent(sqlite3 *database) {
 
 bool isPacked(int64_t coordinate) { return coordinate >= 1 && coordinate <= 65535; }
 
-bool isNear(const Vector3 &position_m) { return position_m.allFinite() && position_m.norm() < kFarthestM; }
-
 PlacePoint pointOf(SqliteStatement *row) {
   PlacePoint point = {};
   point.seen.position_m = {row->real(0), row->real(1), row->real(2)};
@@ -138,14 +135,14 @@ PlacePoint pointOf(SqliteStatement *row) {
   point.real = row->integer(9) != 0;
   point.release = static_cast<uint32_t>(row->integer(10));
   const bool valid = row->blob(5, point.seen.descriptor.bytes, kDescriptorBytes) &&
-                     row->blob(8, point.descriptor.bytes, kDescriptorBytes) && isNear(point.seen.position_m) &&
-                     point.seen.sigma_m >= 0 && point.seen.sigma_m < kFarthestM && isPacked(u) && isPacked(v);
+                     row->blob(8, point.descriptor.bytes, kDescriptorBytes) && isInRange(point.seen) &&
+                     isPacked(u) && isPacked(v);
   if (!valid) throw std::runtime_error("a point is damaged; take the backup");
   return point;
 }
 
 bool isSound(const Place &place) {
-  return isNear(place.centre_m) && place.eta > 0 && place.eta <= 1 && place.fake_option >= 0;
+  return isInRange(place.centre_m) && place.eta > 0 && place.eta <= 1 && place.fake_option >= 0;
 }
 
 std::vector<PlacePoint> readPoints(sqlite3 *database, uint32_t place) {
@@ -338,6 +335,12 @@ void Ledger::record(const Place &place) {
     refuse(path_,
            "a place's centre must lie within 1000 km of the world's origin and its eta in 0 to 1; build the map "
            "of other poses");
+  for (const PlacePoint &point : place.points)
+    if (!isInRange(point.seen))
+      refuse(
+          path_,
+          "a place's points must lie, and be known, within 1000 km of the world's origin; build the map of other "
+          "poses");
   run("BEGIN IMMEDIATE");
   try {
     writePlace(database_.get(), place);

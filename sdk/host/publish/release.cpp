@@ -19,16 +19,19 @@ constexpr double kDefaultEta = 1.0 / 3;
 constexpr double kSamePlaceShare = 1.0 / 3;  // of a recording's points that are known makes it one of that place
 constexpr size_t kLeastBatch = 64;           // fewer new points have too few others to hide among
 constexpr double kNearestM = 0.01;           // a point so near to the centre has no direction worth having
-constexpr double kFarthestPointM = 1e6;
 
 std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
 void checkModel(const PointModel &model, const ReleaseRequest &request) {
   if (request.eta && !(*request.eta > 0 && *request.eta <= 1))
     throw std::runtime_error("eta is " + std::to_string(*request.eta) + "; it must lie in (0, 1]");
-  for (const ModelPoint &point : model.points)
-    if (!point.position_m.allFinite() || point.position_m.norm() > kFarthestPointM)
+  for (const ModelPoint &point : model.points) {
+    if (!isInRange(point.position_m))
       throw std::runtime_error("the model has a point that is nowhere near; are the recording's poses in metres?");
+    if (!isInRange(point))
+      throw std::runtime_error("the model has a point of which nobody knows where it is, its sigma is " +
+                               std::to_string(point.sigma_m) + " m; map the place from more than one spot");
+  }
 }
 
 std::vector<Recognition> recognizeAll(const std::vector<Place> &places, const PointModel &model) {

@@ -65,6 +65,37 @@ TEST_F(ColmapImport, MetresByAKnownScaleAndUpByTheCameras) {
   }
 }
 
+// Of two keypoints of one image, or of images from one spot, nobody knows how far away it is.
+TEST_F(ColmapImport, APointSeenFromOneSpotIsDropped) {
+  ColmapModel model = tinyColmapModel(kUnitsPerMetre);
+  for (auto &[id, image] : model.images)
+    for (int i = 0; i < 2; ++i) image.keypoints_px.push_back(image.keypoints_px.front());
+  model.images[4] = model.images[1];
+  const Vector3 position = model.points[100].position;
+  model.points[200] = {position, {{1, 12}, {1, 13}}};
+  model.points[201] = {position, {{1, 12}, {4, 12}}};
+  test::writeColmapFiles(folder_.path().string(), binaryFiles(model));
+  std::filesystem::remove(folder_ / "database.db");
+  test::writeColmapDatabase(folder_ / "database.db", model, Schema::kNew);
+  options_.metres_per_unit = 1 / kUnitsPerMetre;
+  for (uint32_t least : {1u, 2u}) {
+    options_.min_observations = least;
+    EXPECT_EQ(import().points.size(), 12u);
+    EXPECT_EQ(summary_.points_described, 14u);
+  }
+}
+
+TEST_F(ColmapImport, TwoKeypointsOfOneImageAreOneThatSawAPoint) {
+  ColmapModel model = tinyColmapModel(kUnitsPerMetre);
+  model.points[100].track.push_back(model.points[100].track.front());
+  test::writeColmapFiles(folder_.path().string(), binaryFiles(model));
+  options_.metres_per_unit = 1 / kUnitsPerMetre;
+  options_.min_observations = 4;
+  EXPECT_EQ(import().points.size(), 0u);
+  options_.min_observations = 3;
+  for (const ModelPoint &point : import().points) EXPECT_EQ(point.observations, 3u);
+}
+
 TEST_F(ColmapImport, MetresByDepthImages) {
   writeWall(folder_.path().string(), test::kTinyWallM);
   options_.depth = folder_.path().string();

@@ -121,6 +121,15 @@ TEST(ModelBytes, EveryByteIsChecked) {
   EXPECT_THAT(whyRefused(longer), HasSubstr("too many bytes"));
 }
 
+TEST(ModelBytes, WhatCouldNotBeReadIsNotWritten) {
+  for (double bad : {std::nan(""), HUGE_VAL, 1e6}) {
+    PointModel far = test::madeUpRoom(3, 1), unknown = far;
+    far.points[1].position_m.z() = unknown.points[1].sigma_m = bad;
+    for (const PointModel &model : {far, unknown})
+      EXPECT_THAT(test::refusal([&] { encodeModel(model); }), HasSubstr("nobody knows where"));
+  }
+}
+
 TEST(ModelBytes, AnUnknownBandIsRefused) {
   std::vector<uint8_t> bytes = encodeModel(test::madeUpRoom(3, 1));
   EXPECT_EQ(bytes[10], 0);  // as before there were bands

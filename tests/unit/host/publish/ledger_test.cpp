@@ -131,6 +131,19 @@ TEST_F(LedgerTest, APlaceWithoutACentreIsNotHalfRecorded) {
   EXPECT_EQ(ledger.places().size(), 1u);
 }
 
+TEST_F(LedgerTest, WhatItWouldNotReadItDoesNotKeep) {
+  const auto refused = [this](double x_m, double sigma_m) {
+    Place place = makePlace(1, 10);
+    place.points[3].seen.position_m.x() = x_m;
+    place.points[3].seen.sigma_m = sigma_m;
+    EXPECT_THROW(Ledger::openOrMake(path_, nullptr).record(place), std::runtime_error) << x_m << " " << sigma_m;
+  };
+  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 3));
+  for (const double bad : {1e6, -1e6, std::nan(""), HUGE_VAL}) refused(bad, 0.01);
+  for (const double bad : {1e6, -0.01, std::nan(""), HUGE_VAL}) refused(0, bad);
+  EXPECT_EQ(Ledger::openToRead(path_).places().at(0).points.size(), 3u);
+}
+
 // As one was written before places had a band, and what shaped their fakes.
 TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
   Place place = makePlace(1, 20);

@@ -353,6 +353,11 @@ TEST(Release, BadModelsAreExplained) {
     room.points[7].position_m.x() = far;
     EXPECT_THAT(refusal(room, releaseRequest()), HasSubstr("nowhere near"));
   }
+  room.points[7].position_m.x() = 0;
+  for (double unknown : {1e6, -1.0, std::nan(""), HUGE_VAL}) {
+    room.points[7].sigma_m = unknown;
+    EXPECT_THAT(refusal(room, releaseRequest()), HasSubstr("nobody knows where it is"));
+  }
 }
 
 }  // namespace
