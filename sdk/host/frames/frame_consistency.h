@@ -28,7 +28,8 @@ class FaultCounts {
 // Frames come in the order of their times.
 class FrameConsistency {
  public:
-  explicit FrameConsistency(const sphc_rig &calibration);
+  // Depth is used between these.
+  FrameConsistency(const sphc_rig &calibration, double depth_min_m, double depth_max_m);
 
   // A pair of images of the calibration's sizes; the times are those of the middles of their exposures.
   // camera_from_camera_at_depth: from the colour camera where it was when depth was taken, to where it was when

@@ -146,7 +146,7 @@ class Importer {
     const sphc_rig &rig = source.reader->calibration();
     FrameDescriber describer(rig, options_);
     RollingRows rows(describer.camera(), options_.row_time_ns);
-    FrameConsistency consistency(rig);
+    FrameConsistency consistency(rig, options_.depth_min_m, options_.depth_max_m);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
     fixed_.begin(describer.camera());
     scale_.begin(describer.camera(), posedFrames(source));

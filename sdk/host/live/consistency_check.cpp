@@ -1,5 +1,7 @@
 #include "host/live/consistency_check.h"
 
+#include <spherecloud/spherecloud.hpp>
+
 #include "host/report/fault_words.h"
 
 namespace sphc::host {
@@ -8,6 +10,10 @@ namespace {
 constexpr uint32_t kOneIn = 10;  // of the pairs: a fault that is seen less often may be one of the scene
 
 }  // namespace
+
+ConsistencyCheck::ConsistencyCheck(const sphc_rig &calibration)
+    : consistency_(calibration, spherecloud::defaultConfig().depth_min_m,
+                   spherecloud::defaultConfig().depth_max_m) {}
 
 void ConsistencyCheck::look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth,
                             int64_t depth_time_ns) {

@@ -7,7 +7,7 @@ namespace sphc::host {
 
 class ConsistencyCheck {
  public:
-  explicit ConsistencyCheck(const sphc_rig &calibration) : consistency_(calibration) {}
+  explicit ConsistencyCheck(const sphc_rig &calibration);
 
   // A pair of images of the calibration's sizes; the times are those of the middles of their exposures.
   void look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth, int64_t depth_time_ns);

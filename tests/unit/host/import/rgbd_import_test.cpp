@@ -74,6 +74,23 @@ TEST_F(RgbdImportTest, PosesFromElsewhereStandForTheRecordings) {
   EXPECT_EQ(summary.frames_without_pose, 1u);
 }
 
+// A hall is no sensor that is covered.  Frame i shows what is i to i + 0.7 metres away.
+TEST_F(RgbdImportTest, FramesAreJudgedByTheDepthsThatAreUsed) {
+  const std::string hall = folder_ / "hall";
+  contract::writeTinyRecording(hall, 10);
+  RecordingOptions recording;
+  recording.folder = hall;
+  const auto out_of_range = [&](double depth_max_m) {
+    RgbdImportOptions options;
+    options.depth_max_m = depth_max_m;
+    RgbdImportSummary summary;
+    importRgbd({{openRecording(recording).get()}}, options, {}, &summary);
+    return summary.frames_with_fault.of(kDepthRange);
+  };
+  EXPECT_EQ(out_of_range(6), 4u);
+  EXPECT_EQ(out_of_range(20), 0u);
+}
+
 TEST_F(RgbdImportTest, ImagesThatAreCutAreNamedAsTheCause) {
   for (const auto &image : std::filesystem::directory_iterator(walk() + "/rgb"))
     std::filesystem::resize_file(image.path(), 20);
