@@ -49,7 +49,7 @@ std::vector<std::vector<double>> wordCounts(const std::vector<WalkFrame> &frames
       frame_of.push_back(f);
     }
   const DescriptorIndex index = makeIndex(descriptors, std::vector<PackedDirection>(descriptors.size(), {1, 1}));
-  const size_t words = index.centroids.size(), runs_of_word = (index.runs.size() - 1) / words;
+  const size_t words = index.centroids.size(), runs_of_word = index.sector_side * index.sector_side;
   std::vector<std::vector<double>> counts(frames.size(), std::vector<double>(words));
   for (size_t word = 0; word < words; ++word)
     for (uint32_t at = index.runs[word * runs_of_word]; at < index.runs[(word + 1) * runs_of_word]; ++at)

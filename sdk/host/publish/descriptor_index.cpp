@@ -15,14 +15,15 @@ constexpr int kRounds = 10;
 // Cells for the square root of the number of points: about as many centroids as points to compare with.
 constexpr double kCellsOfRoot = 2.3;
 
+// No more than points, whose first are where the cells begin.
 uint32_t cellsFor(size_t points) {
-  const double cells = kCellsOfRoot * std::sqrt(static_cast<double>(points));
-  return static_cast<uint32_t>(std::clamp<double>(std::round(cells), 1, kMapMaxCells));
+  const double cells = std::round(kCellsOfRoot * std::sqrt(static_cast<double>(points)));
+  return static_cast<uint32_t>(std::min({cells, static_cast<double>(points), double{kMapMaxCells}}));
 }
 
 uint32_t groupsFor(size_t cells) {
   const double groups = std::round(std::sqrt(static_cast<double>(cells)));
-  return static_cast<uint32_t>(std::clamp<double>(groups, 1, kMapMaxGroups));
+  return static_cast<uint32_t>(std::min<double>(groups, kMapMaxGroups));
 }
 
 // At most one sector a point, so that the table stays small.

@@ -68,6 +68,14 @@ TEST(LikelyPairsTest, LoopsAreFoundByTheirLook) {
   for (const FramePair &pair : pairs) EXPECT_GT(pair.gap(), kMostGapInTime);
 }
 
+TEST(LikelyPairsTest, FramesOfHardlyAKeypointArePairsAllTheSame) {
+  for (size_t keypoints = 0; keypoints <= 4; ++keypoints) {
+    std::vector<WalkFrame> frames(2 * kMostGapInTime);
+    for (size_t i = 0; i < keypoints; ++i) frames[i].descriptors.resize(1);
+    EXPECT_FALSE(pairsByLook(frames).empty()) << keypoints;
+  }
+}
+
 TEST(LikelyPairsTest, FramesOfOneSurfaceOverlap) {
   const MadeUpWalk &made = twoTurns();
   const std::vector<FramePair> pairs = pairsByOverlap(made.walk.keyframes, truthOf(made), {});

@@ -92,6 +92,17 @@ TEST(DescriptorIndex, CellsDependOnDescriptorsAlone) {
   for (size_t run = 0; run < before.runs.size(); run += sectors) EXPECT_EQ(before.runs[run], after.runs[run]);
 }
 
+TEST(DescriptorIndex, FewPointsHaveNoMoreCells) {
+  for (size_t count = 0; count <= 8; ++count) {
+    const Points points = pointsOf(count, 3);
+    const DescriptorIndex index = makeIndex(points.descriptors, points.directions);
+    EXPECT_LE(index.centroids.size(), count);
+    EXPECT_EQ(index.centroids.empty(), count == 0);
+    EXPECT_EQ(index.order.size(), count);
+    EXPECT_EQ(index.runs.back(), count);
+  }
+}
+
 TEST(DescriptorIndex, PointsThatAreAllAlike) {
   Points points = pointsOf(100, 1);
   for (Descriptor &d : points.descriptors) d = points.descriptors[0];
