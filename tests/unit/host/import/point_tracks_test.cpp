@@ -116,6 +116,31 @@ TEST(PointTracks, ALoneObservationAtADepthEdgeIsDropped) {
   EXPECT_EQ(tracks.points().size(), 0u);
 }
 
+// Of two that disagree the surer one is where the point is.  The other one's depth patch says nothing of it.
+TEST(PointTracks, TheOneObservationThatAgreesIsAskedWhetherItIsClean) {
+  const auto kept = [](bool sure_is_clean, bool other_is_clean, bool sure_is_first) {
+    World world(6, 40);
+    auto sure = world.observe(0, 0.001), other = sure;
+    for (size_t i = 0; i < sure.size(); ++i) {
+      const double noise_m = kMappingNoise.sigmaAt(sure[i].depth_m);
+      sure[i].sigma_m = (sure_is_clean ? 0.5 : 3) * noise_m;
+      other[i].sigma_m = (other_is_clean ? 0.5 : 3) * noise_m;
+      other[i].position_m *= 1.025;
+      other[i].depth_m *= 1.025;
+      other[i].information = Matrix3::Identity() / (0.01 * 0.01);
+    }
+    PointTracks tracks({});
+    tracks.add(camera(), World::cameraFromWorld(0), sure_is_first ? sure : other);
+    EXPECT_EQ(tracks.add(camera(), World::cameraFromWorld(0), sure_is_first ? other : sure), sure.size());
+    for (const TrackedPoint &tracked : tracks.points()) EXPECT_EQ(tracked.point.observations, 1u);
+    return static_cast<double>(tracks.points().size()) / static_cast<double>(sure.size());
+  };
+  for (bool sure_is_first : {false, true}) {
+    EXPECT_EQ(kept(true, false, sure_is_first), 1) << sure_is_first;
+    EXPECT_EQ(kept(false, true, sure_is_first), 0) << sure_is_first;
+  }
+}
+
 TEST(PointTracks, OutliersDoNotMoveAPoint) {
   World world(3, 60);
   PointTracks tracks({});
