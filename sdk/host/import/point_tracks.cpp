@@ -13,7 +13,6 @@ namespace sphc::host {
 namespace {
 
 constexpr int kCellPx = 16;
-constexpr size_t kMostKept = 24;     // observations a track remembers
 constexpr double kScaleRatio = 1.8;  // keypoints of one point differ in metric size at most by this factor
 constexpr double kAgreement2 = 16;   // squared Mahalanobis distance of an observation that supports the mean
 constexpr double kLoneNoise = 2;     // a point seen once may scatter at most so many times the sensor's noise
@@ -116,7 +115,7 @@ size_t PointTracks::add(const Camera &camera, const Rigid &camera_from_world,
     if (joined[p.observation] || taken[p.track]) continue;
     joined[p.observation] = taken[p.track] = true;
     Track &track = tracks_[p.track];
-    if (track.observations.size() == kMostKept) track.observations.erase(track.observations.begin());
+    if (track.observations.size() == kMostObservations) track.observations.erase(track.observations.begin());
     track.observations.push_back(observations[p.observation]);
     Matrix3 information;
     fuse(track.observations, track.position_m, kInfinite, &track.position_m, &information);

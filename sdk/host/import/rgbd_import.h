@@ -13,9 +13,12 @@
 
 namespace sphc::host {
 
+constexpr uint32_t kMostObservations = 24;  // of a point, the newest: those before are forgotten
+
 struct RgbdImportOptions {
   uint32_t max_keypoints = 1200;  // of a frame
-  uint32_t min_observations = 1;  // frames that must agree on a point; 2 halves the map and costs recall
+  // Frames that must agree on a point, kMostObservations at most; 2 halves the map and costs recall.
+  uint32_t min_observations = 1;
   double depth_min_m = 0.3, depth_max_m = 6.0;
   double merge_pixels = 4;               // an observation joins a point that reprojects within this
   double max_descriptor_distance = 260;  // and whose descriptor is within this (L2 of bytes)

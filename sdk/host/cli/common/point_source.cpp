@@ -89,6 +89,10 @@ ImportedPoints fromColmap(const PointSource &source) {
   return imported;
 }
 
+uint32_t onWhatMoved(const RgbdImportSummary &summary) {
+  return summary.moving.seen_through + summary.moving.within_reach;
+}
+
 // Of a recording that gave no point at all: what stood in the way.
 void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &options) {
   if (summary.points_kept > 0) return;
@@ -100,18 +104,26 @@ void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &opti
         fixed(options.depth_min_m, 2) + " to " + fixed(options.depth_max_m, 2) +
         " m; is that the range of the room (--depth-min, --depth-max), and depth_unit_m of the "
         "calibration right?");
-  throw std::runtime_error("none of " + counted(summary.points_dropped, "point") + " was seen in " +
-                           counted(options.min_observations, "frame") +
+  const std::string none = "none of " + counted(summary.points_dropped, "point");
+  if (onWhatMoved(summary) + summary.fixed_in_image + summary.moving.gone > 0)
+    throw std::runtime_error(none +
+                             " is sure and on what stays where it is; record the place without what moves, or "
+                             "keep it with --keep-moving");
+  if (options.min_observations == 1)
+    throw std::runtime_error(none +
+                             " is sure: no two frames agree on one, and the depth around each scatters; record "
+                             "more frames of each place, slower, and look at the depth images");
+  throw std::runtime_error(none + " was seen in " + counted(options.min_observations, "frame") +
                            "; record more frames of each place, or give a smaller --min-observations");
 }
 
 std::string movingText(const RgbdImportSummary &summary) {
-  const MovingSummary &moving = summary.moving;
-  const uint32_t dropped = moving.seen_through + moving.within_reach;
+  const uint32_t dropped = onWhatMoved(summary);
   std::string text = dropped ? ", " + std::to_string(dropped) + " of them on what moved" : "";
   if (summary.fixed_in_image)
     text += ", " + std::to_string(summary.fixed_in_image) + " of them on what is fixed in the image";
-  if (moving.gone) text += ", " + std::to_string(moving.gone) + " of them on what later recordings see through";
+  if (summary.moving.gone)
+    text += ", " + std::to_string(summary.moving.gone) + " of them on what later recordings see through";
   return text;
 }
 
@@ -176,7 +188,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->group(kMappingGroup);
   app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
       ->capture_default_str()
-      ->transform(wholeFrom(1, 100000))
+      ->transform(wholeFrom(1, kMostObservations))
       ->group(kMappingGroup);
   app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
       ->capture_default_str()

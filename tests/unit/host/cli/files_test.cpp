@@ -11,6 +11,8 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "host/recording/recording_writer.h"
+#include "tests/support/session.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -465,6 +467,23 @@ TEST_F(FilesTest, ManyContradictionsAreSaidOfTheOtherPosesToo) {
                                     HasSubstr("): the poses of the others may be wrong too"));
   EXPECT_THAT(runCommand(localize + " -c " + at("wrong.json")).err, named);
   EXPECT_THAT(runCommand(localize).err, testing::Not(HasSubstr("contradict themselves")));
+}
+
+// Of one frame, whose depths scatter by 3 %.
+TEST_F(FilesTest, PointsThatAreNotSureAreNamedAsTheCause) {
+  const sphc_localizer_config config = test::sceneConfig();
+  const auto rough = test::sceneFrame(config, 0);
+  std::vector<uint16_t> &depth_mm = rough->images.depth_mm;
+  for (size_t i = 0; i < depth_mm.size(); i += 2) depth_mm[i] = static_cast<uint16_t>(depth_mm[i] * 0.97);
+  sphc_recording_writer *writer = nullptr;
+  ASSERT_EQ(sphc_recording_create(at("rough").c_str(), &config.rig, &writer, nullptr), SPHC_OK);
+  EXPECT_EQ(sphc_recording_add_frame(writer, &rough->frame, nullptr), SPHC_OK);
+  const sphc_rigid pose = rigidToC({});
+  EXPECT_EQ(sphc_recording_add_pose(writer, rough->frame.color_time_ns, &pose, nullptr), SPHC_OK);
+  ASSERT_EQ(sphc_recording_close(&writer, nullptr), SPHC_OK);
+  const Answer answer = runCommand("build -r " + at("rough") + " -m " + at("rough.sphc"));
+  EXPECT_THAT(answer.err, HasSubstr("the depth around each scatters"));
+  EXPECT_THAT(answer.err, testing::Not(HasSubstr("--min-observations")));
 }
 
 TEST_F(FilesTest, TheCauseIsTheRightOne) {
