@@ -92,6 +92,10 @@ class PatchworkFakes : public FakeStrategy {
     const std::vector<Patch> patches = cutIntoPatches(points, &width_rad, random);
     const double eta = static_cast<double>(real_count) / static_cast<double>(points.size());
     const std::vector<bool> real = drawReal(patches, eta, width_rad, random);
+    if (std::none_of(real.begin(), real.end(), [](bool is_real) { return is_real; }))
+      throw std::runtime_error("each patch of the sphere that has points has more than twice the " +
+                               std::to_string(real_count) + " that an eta of " + std::to_string(eta) +
+                               " leaves real; give a larger --eta, or record more of the room");
     const Pile stay = byCount(patches, real, true, random), go = byCount(patches, real, false, random);
     Pile partners = alikePartners(go, stay);
     if (from_beside_) bringNear(go, width_rad, &partners, random);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "host/publish/fakes/strategy.h"
 #include "runtime/stages/features/mirrored_descriptor.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/refusal.h"
 
 namespace sphc::host {
 namespace {
@@ -23,6 +25,11 @@ std::vector<SpherePoint> somePoints(size_t count, double spread, uint64_t seed =
 std::vector<Assignment> assignmentsOf(const std::vector<SpherePoint> &points, size_t real, uint8_t key = 1) {
   SecretRandom random({key});
   return patchworkFakes()->assignments(points, real, &random);
+}
+
+std::vector<Assignment> warpedAssignmentsOf(const std::vector<SpherePoint> &points, size_t real) {
+  SecretRandom random({1});
+  return warpedFakes()->assignments(points, real, &random);
 }
 
 bool same(const Descriptor &a, const Descriptor &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -132,16 +139,20 @@ TEST(PatchworkFakes, SmallCloudsHaveFakesToo) {
   }
 }
 
+// Fakes need a patch to lie on.
+TEST(PatchworkFakes, WhereEveryPatchIsTooLargeToStayIsExplained) {
+  const auto points = somePoints(300, 1e-4);
+  for (size_t real : {1u, 100u}) {
+    EXPECT_THAT(test::refusal([&] { assignmentsOf(points, real); }), testing::HasSubstr("give a larger --eta"));
+    EXPECT_THAT(test::refusal([&] { warpedAssignmentsOf(points, real); }), testing::HasSubstr("larger --eta"));
+  }
+}
+
 TEST(PatchworkFakes, BadWidthsAreExplained) {
   for (double width : {0.0, -1.0, 1.9, 61.0, std::nan("")}) {
     EXPECT_THROW(patchworkFakes(width), std::runtime_error);
     EXPECT_THROW(warpedFakes(width), std::runtime_error);
   }
-}
-
-std::vector<Assignment> warpedAssignmentsOf(const std::vector<SpherePoint> &points, size_t real) {
-  SecretRandom random({1});
-  return warpedFakes()->assignments(points, real, &random);
 }
 
 // Mean angle between where fakes are and where they are shown.
