@@ -14,8 +14,8 @@ std::vector<uint8_t> encodeModel(const PointModel &model);
 // content, for anything else.
 PointModel decodeModel(const std::vector<uint8_t> &bytes);
 
-// Whole or not at all, readable by its owner alone from its first byte on.  Replaces only a point model.  Throws
-// std::runtime_error with cause and cure.
+// Whole or not at all, readable by its owner alone from its first byte on.  Replaces what
+// is there: what it may be is for the command to say.  Throws std::runtime_error with cause and cure.
 void writeModelFile(const std::string &path, const PointModel &model);
 // Throws std::runtime_error with cause and cure, also when others may read the file.
 PointModel readModelFile(const std::string &path);
