@@ -69,6 +69,20 @@ TEST(Vertical, UnitsThatAreNoneOfOursAreNotBelieved) {
               testing::HasSubstr("their mean is 1.0 m/s^2, and gravity is 9.8; check the units"));
 }
 
+// One acceleration a second is none throughout, and may be of a jolt.
+TEST(Vertical, SecondsWithAFewAccelerationsTellNothing) {
+  const FeltPath whole = walk(0);
+  FeltPath path = whole;
+  path.felt.clear();
+  for (size_t i = 0; i < whole.felt.size(); i += 200) path.felt.push_back(whole.felt[i]);
+  EXPECT_FALSE(measureVertical({path}).isKnown());
+  path.felt = whole.felt;
+  path.felt.erase(path.felt.begin() + 420, path.felt.begin() + 580);  // 0.8 s of the third second
+  const MeasuredVertical vertical = measureVertical({path});
+  EXPECT_TRUE(vertical.isKnown());
+  EXPECT_EQ(vertical.seconds, 9);
+}
+
 TEST(Vertical, TwoSecondsTellNothing) {
   FeltPath path = walk(0);
   path.felt.resize(390);
