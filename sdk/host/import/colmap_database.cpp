@@ -73,8 +73,9 @@ DescriptorsOfPoints describeFromDatabase(const ColmapModel &model, const std::st
     const std::string place = "descriptors of image " + std::to_string(image);
     sqlite3_reset(row.get());
     sqlite3_bind_int64(row.get(), 1, image);
-    if (sqlite3_step(row.get()) != SQLITE_ROW)
-      refuse(path, place, "are not there; is it the database of this model?");
+    const int found = sqlite3_step(row.get());
+    if (found == SQLITE_DONE) refuse(path, place, "are not there; is it the database of this model?");
+    if (found != SQLITE_ROW) refuseDatabase(path, database.get());
     if (typed && sqlite3_column_int64(row.get(), 3) != kSift)
       refuse(path, place, "are not SIFT; describe the images again, with --images");
     const int64_t rows = sqlite3_column_int64(row.get(), 0), cols = sqlite3_column_int64(row.get(), 1);

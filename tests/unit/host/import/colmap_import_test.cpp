@@ -216,6 +216,18 @@ TEST(ColmapDatabaseTypes, LearnedDescriptorsAreRefused) {
               HasSubstr("not SIFT; describe the images again"));
 }
 
+// Whose first page, with the names of its tables, is as it was.
+TEST(ColmapDatabaseTypes, ADamagedOneIsNotTakenForAnotherModels) {
+  const test::TempFolder folder;
+  const std::string path = folder / "d.db";
+  test::writeColmapDatabase(path, tinyColmapModel(1), Schema::kNew);
+  const auto size = static_cast<std::streamsize>(std::filesystem::file_size(path));
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(4096);
+  file << std::string(static_cast<size_t>(size - 4096), '\xff') << std::flush;
+  EXPECT_THAT(refusal([&] { describeFromDatabase(tinyColmapModel(1), path); }), HasSubstr("malformed"));
+}
+
 TEST(ColmapDatabaseTypes, OtherFilesAreRefused) {
   EXPECT_THAT(refusal([] { describeFromDatabase(tinyColmapModel(1), "/nonexistent.db"); }),
               HasSubstr("database.db"));
