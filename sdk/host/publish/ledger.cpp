@@ -62,7 +62,7 @@ const AddedColumn kBand = {2, "band", "INTEGER"}, kFakeOption = {3, "fake_option
     case SQLITE_ERROR:  // a table is not there
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      refuse(path, what + "; choose the right file with --ledger, or take the backup");
+      refuse(path, what + "; give a ledger that spherecloud build made, or take the backup");
     default:
       refuse(path, what + "; is the disk full, or failing?");
   }
@@ -120,7 +120,7 @@ void checkContent(sqlite3 *database) {
   SqliteStatement check(database, "PRAGMA quick_check(1)");
   if (!check.step() || check.text(0) != "ok") throw std::runtime_error("it is damaged; take the backup");
   if (valueOf(database, "SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") != 0)
-    throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
+    throw std::runtime_error("this is not a ledger; give a ledger that spherecloud build made");
 }
 
 bool isPacked(int64_t coordinate) { return coordinate >= 1 && coordinate <= 65535; }
@@ -223,7 +223,7 @@ Ledger::Ledger(const std::string &path, int flags) : path_(path) {
   const int result = sqlite3_open_v2(std::filesystem::absolute(path).c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (result != SQLITE_OK)
-    refuse(path, "cannot be opened: " + sqliteError(database) + "; choose the right file with --ledger");
+    refuse(path, "cannot be opened: " + sqliteError(database) + "; give a ledger that spherecloud build made");
 }
 
 void Ledger::run(const char *statement) {
@@ -251,7 +251,7 @@ void Ledger::read(const SecretKey *expected) {
   bool is_unused = false;
   try {
     if (valueOf(database_.get(), "PRAGMA application_id") != kApplication)
-      throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
+      throw std::runtime_error("this is not a ledger; give a ledger that spherecloud build made");
     const int64_t version = versionOf(database_.get());
     if (version < kFirstVersion || version > kVersion)
       throw std::runtime_error("it was written by another version of this program; use that one");

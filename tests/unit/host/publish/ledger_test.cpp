@@ -299,7 +299,7 @@ TEST_F(LedgerTest, WhatIsNoLedgerIsRefused) {
   std::ofstream(path_) << "no database, and long enough that nobody takes it for the beginning of one "
                        << std::string(200, 'x');
   chmod(path_.c_str(), 0600);
-  EXPECT_THAT(refusal(), HasSubstr("not a database; choose the right file"));
+  EXPECT_THAT(refusal(), HasSubstr("not a database; give a ledger that spherecloud build made"));
   EXPECT_THROW(Ledger::openOrMake("/nonexistent-folder/ledger", nullptr), std::runtime_error);
 }
 
