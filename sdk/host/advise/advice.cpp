@@ -13,9 +13,11 @@ namespace {
 constexpr size_t kMostHoles = 6;
 constexpr SecretKey kKey = {};  // these maps never leave this process; the same advice each time
 
+// Indices of frames; numbers of the recording may come twice.
 struct Block {
-  uint32_t first, last;                    // indices
-  uint32_t first_sequence, last_sequence;  // numbers of the recording
+  uint32_t first, last;
+
+  bool holds(uint32_t index) const { return index >= first && index <= last; }
 };
 
 std::vector<uint32_t> framesWithPose(const RecordingReader &reader) {
@@ -33,12 +35,10 @@ void checkFolds(size_t posed, uint32_t folds) {
 }
 
 // Of the frames that have a pose: a block that had all of them would leave none for the map.
-std::vector<Block> blocksOf(const RecordingReader &reader, const std::vector<uint32_t> &posed, uint32_t folds) {
+std::vector<Block> blocksOf(const std::vector<uint32_t> &posed, uint32_t folds) {
   std::vector<Block> blocks;
-  for (size_t k = 0; k < folds; ++k) {
-    const uint32_t first = posed[k * posed.size() / folds], last = posed[(k + 1) * posed.size() / folds - 1];
-    blocks.push_back({first, last, reader.colorOf(first).sequence, reader.colorOf(last).sequence});
-  }
+  for (size_t k = 0; k < folds; ++k)
+    blocks.push_back({posed[k * posed.size() / folds], posed[(k + 1) * posed.size() / folds - 1]});
   return blocks;
 }
 
@@ -52,14 +52,15 @@ std::string whyFailed(const FrameRecord &frame) {
 // One block against the map of the others, eta by eta.
 class Trial {
  public:
-  Trial(const AdviceOptions &options, const PointModel &model, const RecordingOptions &held_out)
-      : model_(model), reader_(openRecording(held_out)) {
-    input_.reader = reader_.get();
+  Trial(const AdviceOptions &options, const PointModel &model, RecordingReader *reader, const Block &held_out)
+      : model_(model) {
+    input_.reader = reader;
+    input_.takes_part = [held_out](uint32_t index) { return held_out.holds(index); };
     input_.config = spherecloud::defaultConfig();
     input_.config.mode = SPHC_MODE_SINGLE;
     input_.config.depth_min_m = options.import.depth_min_m;
     input_.config.depth_max_m = options.import.depth_max_m;
-    setCameras(reader_->calibration(), &input_.config);
+    setCameras(reader->calibration(), &input_.config);
   }
 
   // Those that cannot be read are not among them; the import of all frames has told of these.
@@ -80,7 +81,6 @@ class Trial {
 
  private:
   const PointModel &model_;
-  std::unique_ptr<RecordingReader> reader_;
   LocalizeInput input_;
 };
 
@@ -127,7 +127,7 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
   mapped(summary);
-  const std::vector<Block> blocks = blocksOf(*reader, posed, options.folds);
+  const std::vector<Block> blocks = blocksOf(posed, options.folds);
   advice.left_out = framesLeftOut(summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
@@ -137,14 +137,10 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
   for (uint32_t k = 0; k < blocks.size(); ++k) {
     const Block &block = blocks[k];
     progress(k + 1, options.folds + 1);
-    const RgbdSource others = {reader,
-                               [&block](uint32_t index) { return index < block.first || index > block.last; }};
+    const RgbdSource others = {reader, [&block](uint32_t index) { return !block.holds(index); }};
     RgbdImportSummary unused;
     const PointModel model = importRgbd({others}, options.import, nullptr, &unused);
-    RecordingOptions held_out = options.recording;
-    held_out.first = block.first_sequence;
-    held_out.last = block.last_sequence;
-    Trial trial(options, model, held_out);
+    Trial trial(options, model, reader, block);
     for (size_t i = 0; i < options.etas.size(); ++i) {
       const std::vector<FrameRecord> frames = trial.frames(options.etas[i]);
       count(frames, &advice.recalls[i], &errors_m[i]);

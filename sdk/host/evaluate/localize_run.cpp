@@ -194,6 +194,7 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
   std::vector<sphc_localizer_observation> room(input.config.max_keypoints);
   const uint32_t count = input.reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
+    if (input.takes_part && !input.takes_part(i)) continue;
     std::string why;
     std::optional<sphc_localizer_frame> image = input.reader->tryRead(i, &why);
     if (!image) {

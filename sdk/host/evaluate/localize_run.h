@@ -14,6 +14,7 @@ using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
 
 struct LocalizeInput {
   recording::RecordingReader *reader = nullptr;
+  std::function<bool(uint32_t index)> takes_part = {};  // of its frames; empty: all
   std::vector<MapFile> maps;
   sphc_localizer_config config = {};  // cameras already set
   Parameters parameters;

@@ -10,6 +10,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/recording_out.h"
 #include "host/recording/recording_reader.h"
 #include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
@@ -399,6 +400,32 @@ TEST(Advise, HoldsOutFramesWithAPose) {
   EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 4);
   EXPECT_THAT(runCommand("advise --folds 3 -r " + walk).err,
               HasSubstr("4 frames with a pose, too few for 3 folds"));
+}
+
+// A camera that was unplugged counts anew: every number is there twice.
+TEST(Advise, HoldsOutFramesThoughNumbersComeTwice) {
+  const test::TempFolder folder;
+  const std::string walk = folder / "walk", twice = folder / "twice.mcap";
+  ASSERT_EQ(runCommand("simulate --frames 8 --rate 6 --out " + walk).exit_code, kExitDone);
+  recording::RecordingReader reader(walk);
+  const auto out = createRecording(twice, reader.calibration(), patientRecorderConfig());
+  for (uint32_t i = 0; i < reader.frameCount(); ++i) {
+    const sphc_localizer_frame frame = reader.read(i);
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    capture.sequence = i % 4;
+    for (const sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
+      capture.stream = stream;
+      capture.image = stream == SPHC_STREAM_COLOR ? frame.color : frame.depth;
+      capture.time_ns = stream == SPHC_STREAM_COLOR ? frame.color_time_ns : frame.depth_time_ns;
+      out->add(capture);
+    }
+    out->addPose(frame.color_time_ns, *reader.worldFromCamera(i));
+  }
+  out->close();
+  const Answer advice = runCommand("advise --json --folds 2 -r " + twice);
+  ASSERT_EQ(advice.exit_code, kExitDone) << advice.err;
+  EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 8) << "each once";
 }
 
 TEST(Advise, SaysThatNoFrameWouldBeLocalized) {
