@@ -77,12 +77,26 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
 
-void noteRowsOfSingleFrames(const LocalizeOptions &options, const Console &console) {
-  if (options.config.color_row_time_ns == 0 || options.config.mode == SPHC_MODE_TRACKING) return;
-  console.warn(
-      "note: --row-time-ns: how the camera moves is not known in --mode single, so rows stay where they are, and "
-      "poses "
-      "are less sure by that; --mode tracking straightens them");
+// From a frame to the next, median; NaN of a single one.
+double stepSeconds(const RecordingReader &reader) {
+  std::vector<double> steps_s;
+  for (uint32_t i = 1; i < reader.frameCount(); ++i)
+    steps_s.push_back(1e-9 * static_cast<double>(reader.colorOf(i).time_ns - reader.colorOf(i - 1).time_ns));
+  return percentile(steps_s, 0.5);
+}
+
+void noteRowsThatStay(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
+  if (options.config.color_row_time_ns == 0) return;
+  const auto note = [&console](const std::string &why, const std::string &cure) {
+    console.warn("note: --row-time-ns: how the camera moves is not known " + why +
+                 ", so rows stay where they are, and poses are less sure by that; " + cure);
+  };
+  if (options.config.mode != SPHC_MODE_TRACKING)
+    return note("in --mode single", "--mode tracking straightens them");
+  const double step_s = stepSeconds(reader);
+  if (step_s > kLongestStepS)
+    note("between frames " + fixed(step_s, 2) + " s apart, with --odometry neither",
+         "choose frames at most " + fixed(kLongestStepS, 2) + " s apart (a smaller --step)");
 }
 
 // They would be neither truth nor odometry without a word.
@@ -103,7 +117,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.reader = reader;
   input.deadline_us = options.deadline_us;
   if (options.odometry) noteUselessOdometry(options, *reader, console);
-  noteRowsOfSingleFrames(options, console);
+  noteRowsThatStay(options, *reader, console);
   notePosesOfOtherTimes(options, *reader, console);
   input.play_odometry = options.odometry;
   input.config = options.config;
@@ -262,7 +276,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
   addBandOption(app, &config->color_band, "The light that the colour camera sees; a map must be of the same")
       ->group("Localizer");
   addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
-  addRowTimeOption(app, &config->color_row_time_ns, "for --mode tracking; tell it to build too")
+  addRowTimeOption(app, &config->color_row_time_ns,
+                   "for --mode tracking and frames at most 0.25 s apart; tell it to build too")
       ->group("Localizer");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")

@@ -10,6 +10,9 @@
 
 namespace sphc::host {
 
+// Of frames that are further apart tracking knows no motion between them, by odometry either.
+constexpr double kLongestStepS = 0.25;
+
 using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
 
 struct LocalizeInput {

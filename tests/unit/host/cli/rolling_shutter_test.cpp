@@ -69,6 +69,18 @@ TEST_F(RollingShutterTest, WhereTheMotionIsNotKnownThatIsSaid) {
   EXPECT_EQ(nlohmann::json::parse(tracked.out)["settings"]["color_row_time_ns"], "60000");
 }
 
+// 4 Hz is just fast enough, every second frame of it is not.
+TEST_F(RollingShutterTest, ThatFramesAreTooFarApartIsSaid) {
+  succeed(kBrisk + "--frames 5 --rate 4 --out " + at("walk") + kRowTime);
+  succeed(build("walk", "room.sphc"));
+  const std::string localized = localize("walk", "room.sphc") + " --odometry";
+  EXPECT_THAT(succeed(localized + kRowTime).err, testing::Not(HasSubstr("--row-time-ns")));
+  EXPECT_THAT(succeed(localized + " --step 2").err, testing::Not(HasSubstr("--row-time-ns")));
+  EXPECT_THAT(
+      succeed(localized + " --step 2" + kRowTime).err,
+      HasSubstr("not known between frames 0.50 s apart, with --odometry neither, so rows stay where they are"));
+}
+
 // Those of the images among them, each once.
 TEST_F(RollingShutterTest, PosesComeFromBeforeTheFirstImageToAfterTheLast) {
   succeed(kBrisk + "--frames 2 --rate 3 --poses 30 --out " + at("walk"));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/localizer/tuning.h"
+
 namespace sphc::host {
 namespace {
 
@@ -24,6 +26,8 @@ TEST(DescribeConfig, ASmallNumberIsNotZero) {
   config.depth_offset_sigma_m = 1e-5;  // 0 would be a sensor without bias
   EXPECT_EQ(settingOf(config, "depth_offset_sigma_m"), "1e-05");
 }
+
+TEST(LongestStep, IsThatOfTheLocalizer) { EXPECT_EQ(kLongestStepS, tuning::kSteadySeconds); }
 
 }  // namespace
 }  // namespace sphc::host
