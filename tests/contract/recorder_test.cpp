@@ -186,6 +186,19 @@ TEST_F(Recorder, CountsAndListsGapsInASequence) {
   EXPECT_EQ(infoOf(replay).color_count, 5u);
 }
 
+TEST_F(Recorder, CountsNoGapsOfNumbersThatAreNoCounter) {
+  config_.gaps_are_losses = 0;
+  OpenRecorder recorder(file(), config_);
+  for (const uint32_t i : {0u, 3u, 6u}) {
+    const TinyImages images(i);
+    const sphc_capture capture = tinyCapture(i, SPHC_STREAM_COLOR, images);
+    ASSERT_EQ(sphc_recorder_add(recorder.get(), &capture, nullptr), SPHC_OK);
+  }
+  EXPECT_EQ(statisticsOf(recorder.get()).missing_count, 0u);
+  ASSERT_EQ(recorder.close(), SPHC_OK);
+  EXPECT_EQ(infoOf(OpenReplay(file())).lost_count, 0u);
+}
+
 TEST_F(Recorder, CountsAndListsWhatAFullQueueDrops) {
   config_.queue_slots = 2;
   config_.wait_us = 0;

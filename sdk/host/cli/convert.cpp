@@ -243,8 +243,11 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
   const sphc_replay_info info = infoOf(replay.get());
   noteDamage(options.in.folder, damageOf(info), console);
   *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count};
+  sphc_recorder_config recorder = options.recorder;
+  // One that lost nothing has numbers of files, or of frames that somebody chose.
+  recorder.gaps_are_losses = info.lost_count > 0 || info.bad_chunk_count > 0;
   const Interrupt interrupt;  // from before there is a recording
-  const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
+  const auto out = createRecording(options.out, calibrationOf(replay.get()), recorder);
   const Result result = copyStreams(replay.get(), options, interrupt, out.get(), console);
   out->close();
   return result;

@@ -116,7 +116,8 @@ sphc_recorder::~sphc_recorder() {
 
 void sphc_recorder::noteGap(const sphc_capture &capture, const StreamState &state) {
   const uint32_t gap = capture.sequence - state.last_sequence - 1;
-  if (!state.has_any() || gap == 0 || gap > INT32_MAX) return;  // one that counts anew is no gap
+  if (!config.gaps_are_losses || !state.has_any() || gap == 0) return;
+  if (gap > INT32_MAX) return;  // one that counts anew is no gap
   drops.add(capture.stream, DropCause::kBefore, state.last_sequence + 1, gap, capture.time_ns);
   const std::lock_guard lock(mutex);
   statistics.missing_count += gap;
@@ -316,6 +317,7 @@ sphc_status sphc_recorder_config_init(sphc_recorder_config *config, size_t struc
   config->queue_slots = 16;
   config->sync_ms = 1000;
   config->chunk_bytes = 4 << 20;
+  config->gaps_are_losses = 1;
   return SPHC_OK;
 }
 

@@ -16,7 +16,7 @@
  *
  * Loss.  sphc_recorder_add copies and returns; one thread of the recorder's own encodes and writes.  When the disk
  * cannot follow and the queue is full, a capture is dropped, counted, and listed in the file, as are gaps in the
- * sequence of a stream, which are losses before the recorder.
+ * sequence of a stream, which are losses before the recorder (but see config.gaps_are_losses).
  *
  * Memory.  All of it is made at open: queue_slots images, a chunk, and room to encode.  zstd and the JPEG encoder
  * make theirs at their first image.
@@ -52,7 +52,7 @@ typedef struct sphc_recorder_config {
   uint32_t wait_us;             /* how long add waits for a free slot before it drops; 0 */
   uint32_t sync_ms;             /* what is older is on the disk, the queue aside; 10 to 60000; 1000 */
   uint32_t chunk_bytes;         /* a chunk is written once it is so full; 65536 to 2^28; 4 MiB */
-  uint32_t reserved;
+  uint32_t gaps_are_losses;     /* 0: numbers that a stream skips are of files that nobody wrote; 1 */
 } sphc_recorder_config;
 
 /* The defaults stand behind the fields above.  Errors: ARGUMENT, STRUCT_SIZE. [pure] */

@@ -281,6 +281,25 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+// Every third frame of a walk is a rate, and no loss; numbers stay, so that --first means the same frame.
+TEST(Convert, NumbersOfFilesAreNoCounter) {
+  const test::TempFolder folder;
+  const std::string walk = folder / "walk", scenes = folder / "seq-01", file = folder / "walk.mcap",
+                    again = folder / "again.mcap";
+  ASSERT_EQ(runCommand("simulate --frames 4 --rate 6 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("convert --to 7scenes " + walk + " " + scenes).exit_code, kExitDone);
+  for (const char *kind : {".color.png", ".depth.png", ".pose.txt"})
+    for (const char *number : {"1", "2"}) std::filesystem::remove(scenes + "/frame-00000" + number + kind);
+  ASSERT_EQ(runCommand("convert " + scenes + " " + file).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("convert " + file + " " + again).exit_code, kExitDone);
+  for (const std::string &made : {file, again}) {
+    const recording::Recording reader = recording::openRecording(made);
+    EXPECT_EQ(reader.lost_count, 0u);
+    ASSERT_EQ(reader.color.size(), 2u);
+    EXPECT_EQ(reader.color[1].sequence, 3u);
+  }
+}
+
 TEST(Convert, AnEndingInLargeLettersIsOneToo) {
   const test::TempFolder folder;
   const std::string mcap = folder / "walk.MCAP", raw = folder / "walk.Raw";
