@@ -225,7 +225,8 @@ void checkMappingOptions(const RgbdImportOptions &import) {
 void checkPointSource(const PointSource &source) {
   const ColmapImportOptions &colmap = source.colmap;
   const int sources = !source.recording.folder.empty() + !colmap.model.empty() + !source.model.empty();
-  if (sources != 1) throw UsageError("--recording, --colmap or --model is required, one of the three");
+  if (sources == 0) throw UsageError("--recording, --colmap or --model is required, one of the three");
+  if (sources > 1) throw UsageError("--recording, --colmap and --model exclude each other; give one of the three");
   if (source.recording.folder.empty() && source.recording.isPart())
     throw UsageError("--first, --last and --step choose frames of a --recording; leave them out");
   if (!source.model.empty() && !source.recording.calibration.empty())

@@ -121,6 +121,8 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
   const std::pair<const char *, const char *> mistakes[] = {
       {"conquer", "there is no subcommand conquer"},
       {"build --model p --last 3 --map m", "--first, --last and --step choose frames of a --recording"},
+      {"build --model p --recording r --map m", "--recording, --colmap and --model exclude each other"},
+      {"build --map m", "--recording, --colmap or --model is required"},
       {"build --model p --calibration c --map m", "--calibration is of a --recording or of --colmap"},
       {"map --recording r --model p --drift 2", "--drift requires --poses"},
       {"map --recording r --model p --pose-sigma 0.1", "--pose-sigma requires --poses"},
