@@ -19,9 +19,13 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
   add("--depth", options->depth, "and a depth camera: v4l2:/dev/video2")->type_name("CAMERA");
   add("-c,--calibration", options->wish.calibration, "Calibration file; `spherecloud calibration` makes one")
       ->type_name("FILE");
-  add("--width", options->wish.width, "Size of V4L2 and libcamera images, pixels")->capture_default_str();
-  add("--height", options->wish.height, "The same")->capture_default_str();
-  add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")->capture_default_str();
+  add("--width", options->wish.width, "Size of V4L2 and libcamera images, pixels")
+      ->capture_default_str()
+      ->transform(wholeFrom(0, UINT32_MAX));
+  add("--height", options->wish.height, "The same")->capture_default_str()->transform(wholeFrom(0, UINT32_MAX));
+  add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")
+      ->capture_default_str()
+      ->transform(wholeFrom(0, UINT32_MAX));
   add("--tolerance-ms", options->tolerance_ms, "Colour and depth are a pair when taken at most so far apart")
       ->capture_default_str()
       ->check(between(0, 1000));

@@ -153,6 +153,8 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"audit m --truth t -r r --photos-first 3 --photos-last 2", "--photos-last lies before --photos-first"},
       {"doctor --device ''", "--device is empty"},
       {"doctor --calibration c", "--calibration is of cameras"},
+      {"live -m m --device replay:r --width -1", "--width"},
+      {"live -m m --device replay:r --fps 0x10", "--fps"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
     const Answer answer = runCommand(command);
