@@ -148,8 +148,10 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   std::vector<PointModel> frames = importFrames(options.recording, options.queries, "querying  ", console);
-  checkWorld("--recording", options.recording.folder, *input.place, frames,
-             "give the first recording of the place, whose world the ledger has, and the frames that were mapped");
+  checkWorld(
+      "--recording", options.recording.folder, *input.place, frames,
+      "give the first recording of the place, whose world the ledger has, and the frames that were mapped; of "
+      "a walk that spherecloud map found the poses of, give a copy with those poses (docs/audit.md)");
   if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
   for (PointModel &frame : frames) input.queries.push_back(std::move(frame.points));
   if (options.has_photos)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "host/base/shell_word.h"
 #include "host/cli/common/progress.h"
 #include "host/import/rgbd_import.h"
 
@@ -47,8 +48,12 @@ std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t
     bar.show(k + 1, count);
   }
   if (models.empty())
-    throw std::runtime_error("no frame of " + recording.folder +
-                             " has both images and a pose; audit is of a recording with poses");
+    throw std::runtime_error(
+        "no frame of " + recording.folder +
+        " has both images and a pose; audit is of a recording with poses. Where spherecloud map found them, "
+        "put its --trajectory into a copy: spherecloud convert " +
+        shellWord(recording.folder) +
+        " posed, then cp walk.tum posed/groundtruth.txt, and give posed as the recording");
   return models;
 }
 

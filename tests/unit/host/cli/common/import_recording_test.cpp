@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "host/cli/common/console.h"
@@ -26,6 +27,22 @@ TEST(ImportFrames, TakesThoseWithImagesAndAPose) {
     std::ofstream(walk.folder + "/rgb/00000" + name + ".png") << "no image";
   EXPECT_THAT([&] { importFrames(walk, 3, "querying", Console()); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("has both images and a pose")));
+}
+
+TEST(ImportFrames, SaysHowAWalkWithoutPosesGetsThem) {
+  const test::TempFolder folder;
+  RecordingOptions walk;
+  walk.folder = folder / "walk";
+  const std::string poses = walk.folder + "/groundtruth.txt", found = folder / "walk.tum", posed = folder / "posed";
+  ASSERT_EQ(runCommand("simulate --frames 2 --rate 2 --out " + walk.folder).exit_code, 0);
+  std::filesystem::rename(poses, found);
+  EXPECT_THAT([&] { importFrames(walk, 2, "querying", Console()); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
+                  "spherecloud convert " + walk.folder + " posed, then cp walk.tum posed/groundtruth.txt")));
+  ASSERT_EQ(runCommand("convert " + walk.folder + " " + posed).exit_code, 0);
+  std::filesystem::copy(found, posed + "/groundtruth.txt", std::filesystem::copy_options::overwrite_existing);
+  walk.folder = posed;
+  EXPECT_EQ(importFrames(walk, 2, "querying", Console()).size(), 2u);
 }
 
 }  // namespace
