@@ -110,7 +110,8 @@ Findings findingsOfPoses(RecordingReader *reader) {
   const size_t poses = reader->recording().poses.poses().size();
   const std::string &fault = reader->recording().pose_fault;
   if (!fault.empty()) return {{Grade::kDoubtful, "poses", fault}};
-  if (poses == 0) return {};
+  if (poses == 0)
+    return {{Grade::kDoubtful, "poses", "there are none, and build needs them; spherecloud map finds them"}};
   const std::vector<bool> chosen = framesToCompare(*reader);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
     return {{Grade::kWrong, "poses", "none of " + counted(poses, "pose") + kIsOfOtherTimes}};

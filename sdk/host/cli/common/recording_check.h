@@ -10,7 +10,7 @@ namespace sphc::host {
 // so.
 Findings findingsOfImages(const recording::RecordingReader &reader);
 
-// Whether poses and depths agree, as `build` would say of some of the frames.  Empty where there are no poses.
+// Whether there are poses, and whether they and depths agree, as `build` would say of some of the frames.
 Findings findingsOfPoses(recording::RecordingReader *reader);
 
 }  // namespace sphc::host
