@@ -112,6 +112,18 @@ TEST_F(StrayScanner, AFileThatIsMissingIsNamed) {
   EXPECT_THAT(refusalOfOpen(), HasSubstr("without odometry.csv"));
 }
 
+// With the video's images taken out of it, and the camera in odometry.csv, as newer versions have it.
+TEST_F(StrayScanner, FoldersOfImagesTellItToo) {
+  std::filesystem::remove(folder_ / "odometry.csv");
+  std::filesystem::remove(folder_ / "camera_matrix.csv");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("without odometry.csv"));
+  std::filesystem::remove_all(folder_ / "depth");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("without odometry.csv"));
+  std::filesystem::remove_all(folder_ / "confidence");
+  std::filesystem::create_directory(folder_ / "depth");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("no recording here")) << "other layouts have rgb and depth too";
+}
+
 TEST_F(StrayScanner, DepthOfLowConfidenceIsNone) {
   RecordingReader reader(folder_.path());
   const auto *depth = static_cast<const uint16_t *>(reader.read(1).depth.data);

@@ -146,12 +146,13 @@ void addImages(const StrayOdometry &odometry, const StrayColor &color, Recording
 
 }  // namespace
 
-// Two of its files tell it, so that the one that is missing can be named.
+// Two of its files tell it, so that the one that is missing can be named; rgb and depth are of other layouts too.
 bool isStrayScanner(const fs::path &folder) {
-  int found = 0;
-  for (const char *name : {"odometry.csv", "camera_matrix.csv", "rgb.mp4", "depth"})
-    found += fs::exists(folder / name);
-  return found >= 2;
+  int own = 0, shared = 0;
+  for (const char *name : {"odometry.csv", "camera_matrix.csv", "rgb.mp4", "confidence"})
+    own += fs::exists(folder / name);
+  for (const char *name : {"rgb", "depth"}) shared += fs::exists(folder / name);
+  return own >= 1 && own + shared >= 2;
 }
 
 Recording openStrayScanner(const fs::path &folder) {
