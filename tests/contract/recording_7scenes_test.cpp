@@ -9,6 +9,7 @@
 #include "host/recording/failure.h"
 #include "host/recording/recording.h"
 #include "host/recording/writer_7scenes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
@@ -194,6 +195,17 @@ TEST_F(SevenScenes, GoesOnBehindABadImage) {
       EXPECT_THAT(message.text, HasSubstr(named[i]));
     }
   }
+}
+
+TEST_F(SevenScenes, NamesDepthOfAnotherKind) {
+  addFrame(0);
+  const std::string tiff = folder_ / "frame-000000.depth.tiff";
+  std::filesystem::rename(folder_ / "frame-000000.depth.png", tiff);
+  const auto refused = [this] { return test::refusal([this] { recording::openRecording(folder_.path()); }); };
+  EXPECT_THAT(refused(),
+              HasSubstr("depth must be PNG of 16 bits in millimetres, and frame-000000.depth.tiff is none"));
+  std::filesystem::remove(tiff);
+  EXPECT_THAT(refused(), HasSubstr("no frame-*.depth.png; copy them too"));
 }
 
 TEST_F(SevenScenes, RefusesADepthImageOfEightBits) {

@@ -36,6 +36,8 @@ bool parseFrameFile(std::string_view name, FrameFile &file) {
 
 bool isColor(std::string_view kind) { return kind == "color.jpg" || kind == "color.png"; }
 
+bool isOtherDepth(std::string_view kind) { return kind.substr(0, 6) == "depth." && kind != "depth.png"; }
+
 int64_t timeOf(uint32_t number) { return (int64_t{number} * 1000000000 + kFramesPerSecond / 2) / kFramesPerSecond; }
 
 void sortByNumber(const std::string &folder, std::vector<RecordedImage> &images) {
@@ -73,6 +75,13 @@ void readPoses(const fs::path &folder, std::vector<RecordedImage> &files, Record
                            ", for example); write each as four rows of four numbers with spaces between them";
 }
 
+[[noreturn]] void refuseWithoutDepth(const std::string &folder, const std::string &other_depth) {
+  throw Failure(SPHC_E_DEVICE,
+                folder + (other_depth.empty() ? ": no frame-*.depth.png; copy them too"
+                                              : ": depth must be PNG of 16 bits in millimetres, and " +
+                                                    other_depth + " is none; write each as frame-*.depth.png"));
+}
+
 }  // namespace
 
 bool is7Scenes(const fs::path &folder) {
@@ -89,6 +98,7 @@ Recording open7Scenes(const fs::path &folder) {
   recording.layout = Layout::kSevenScenes;
   recording.path = folder;
   std::vector<RecordedImage> poses;
+  std::string other_depth;  // the first by name
   for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     FrameFile file;
@@ -97,12 +107,13 @@ Recording open7Scenes(const fs::path &folder) {
     if (isColor(file.kind)) recording.color.push_back(image);
     if (file.kind == "depth.png") recording.depth.push_back(image);
     if (file.kind == "pose.txt") poses.push_back(image);
+    if (isOtherDepth(file.kind) && (other_depth.empty() || name < other_depth)) other_depth = name;
   }
   const std::string name = shortPath(folder.string());
   sortByNumber(name, recording.color);
   sortByNumber(name, recording.depth);
   if (recording.color.empty()) throw Failure(SPHC_E_DEVICE, name + ": no frame-*.color.png or .jpg; copy them too");
-  if (recording.depth.empty()) throw Failure(SPHC_E_DEVICE, name + ": no frame-*.depth.png; copy them too");
+  if (recording.depth.empty()) refuseWithoutDepth(name, other_depth);
   readPoses(folder, poses, recording);
   return recording;
 }
