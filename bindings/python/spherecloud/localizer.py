@@ -263,8 +263,9 @@ class Localizer:
         with self._extracting, features.turn.writing():
             pointer, slot = self._alive().pointer, self._extract_frame
             alive = slot.fill(frame)
-            features.check(self._c.sphc_localizer_extract(pointer, slot.raw, features.owned().pointer))
+            status = self._c.sphc_localizer_extract(pointer, slot.raw, features.owned().pointer)
             self._callbacks.raise_fault()
+            features.check(status)
         del alive
 
     def locate(self, frame: Frame, features: Features) -> Result:
