@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <regex>
 #include <stdexcept>
 
 #include "host/report/statistics.h"
@@ -109,6 +110,11 @@ std::vector<Highlight> chooseHighlights(const Run &run) {
         {"not_localized_" + std::to_string(i + 1), "Not localized", i == 0 ? lost.front() : lost.back()});
   }
   return chosen;
+}
+
+bool isOverlayFile(const std::string &file) {
+  static const std::regex names("overlay_(best|median|worst|wrong_[0-9]+|not_localized_[12])\\.jpg");
+  return std::regex_match(file, names);
 }
 
 cv::Mat drawOverlay(const cv::Mat &color, const FrameRecord &frame) {

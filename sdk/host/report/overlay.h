@@ -17,6 +17,8 @@ struct Highlight {
 // Best, median and worst pose (by error, or by inliers where the truth is not known), and up to two frames that
 // were not localized.  Fewer when the run has fewer.
 std::vector<Highlight> chooseHighlights(const Run &run);
+// Is this the name that a report gives to the picture of one?
+bool isOverlayFile(const std::string &file);
 
 // `color` (8-bit BGR) enlarged twofold and muted, keypoints grey, matched ones orange, inliers green, legend below.
 cv::Mat drawOverlay(const cv::Mat &color, const FrameRecord &frame);

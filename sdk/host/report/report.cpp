@@ -116,7 +116,7 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
 void removeOldOverlays(const std::string &folder) {
   std::vector<std::filesystem::path> old;
   for (const auto &entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().filename().string().rfind("overlay_", 0) == 0) old.push_back(entry.path());
+    if (isOverlayFile(entry.path().filename().string())) old.push_back(entry.path());
   }
   for (const auto &path : old) std::filesystem::remove(path);
 }

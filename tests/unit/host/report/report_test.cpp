@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "frames.h"
 #include "host/report/file.h"
@@ -168,6 +169,15 @@ TEST_F(ReportTest, LeavesNoPictureOfAnEarlierRun) {
   run_.frames.pop_back();
   write();
   EXPECT_FALSE(std::filesystem::exists(folder_ / "overlay_not_localized_1.jpg"));
+}
+
+TEST_F(ReportTest, KeepsPicturesThatAreNotItsOwn) {
+  for (const char *name : {"overlay_of_mine.jpg", "overlay_best.png", "overlay_wrong_7.jpg"})
+    std::ofstream(folder_ / name) << "a picture";
+  write();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "overlay_of_mine.jpg"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "overlay_best.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "overlay_wrong_7.jpg")) << "of a run before";
 }
 
 // With the truth there were curves of errors.
