@@ -95,7 +95,7 @@ nlohmann::ordered_json json(const Advice &advice, const std::vector<std::string>
 void drawAdvice(const std::string &path, const Advice &advice) {
   std::vector<std::array<double, 3>> views;
   for (const Failure &failure : advice.failures) views.push_back(failure.view);
-  writePicture(path, drawCoverage(advice.directions, advice.coverage.holes, views));
+  writePicture(path, drawCoverage(advice.directions, advice.coverage.holes, views), Readers::kOwner);
 }
 
 int run(const AdviseOptions &options, const Console &console) {

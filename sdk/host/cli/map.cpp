@@ -89,7 +89,7 @@ void tellOfMap(const MapOptions &options, const MapOutcome &outcome, const Conso
 void writeFiles(const MapOptions &options, const MapOutcome &outcome) {
   writeModelFile(options.model, outcome.import.model);
   for (size_t i = 0; i < options.trajectories.size(); ++i)
-    writeFile(options.trajectories[i], trajectoryText(outcome.recordings[i]));
+    writeFile(options.trajectories[i], trajectoryText(outcome.recordings[i]), Readers::kOwner);
 }
 
 void tellOfFiles(const MapOptions &options, const MapOutcome &outcome, const Console &console) {

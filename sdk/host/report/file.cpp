@@ -20,6 +20,15 @@ void makeFolder(const std::string &path) {
   }
 }
 
+void makePrivateFolder(const std::string &path) {
+  makeFolder(path);
+  std::error_code error;
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all, error);
+  if (error)
+    throw std::runtime_error("cannot make the folder " + path + " private: " + error.message() +
+                             "; choose a place of your own");
+}
+
 std::vector<uint8_t> readBytes(const std::string &path) {
   checkIsFile(path, "the file itself");
   std::ifstream file(path, std::ios::binary);

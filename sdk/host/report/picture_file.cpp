@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/base/write_file.h"
-
 namespace sphc::host {
 namespace {
 
@@ -37,13 +35,13 @@ void checkPictureName(const std::string &path) {
     throw std::runtime_error("cannot write the picture " + path + ": end its name in .png");
 }
 
-void writePicture(const std::string &path, const cv::Mat &picture) {
+void writePicture(const std::string &path, const cv::Mat &picture, Readers readers) {
   checkPictureName(path);
   std::vector<uint8_t> png;
   cv::imencode(".png", picture, png);
   const std::vector<uint8_t> mark = markChunk();
   png.insert(png.begin() + kHeaderEnd, mark.begin(), mark.end());
-  writeFile(path, png);
+  writeFile(path, png, readers);
 }
 
 }  // namespace sphc::host

@@ -3,6 +3,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "host/base/write_file.h"
+
 namespace sphc::host {
 
 // What every PNG that is written here says of itself, near its beginning.
@@ -12,6 +14,6 @@ extern const std::string kPictureMark;
 void checkPictureName(const std::string &path);
 
 // As PNG.  Throws std::runtime_error with cause and cure.
-void writePicture(const std::string &path, const cv::Mat &picture);
+void writePicture(const std::string &path, const cv::Mat &picture, Readers readers = Readers::kAll);
 
 }  // namespace sphc::host

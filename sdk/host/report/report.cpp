@@ -124,7 +124,10 @@ void removeOldOverlays(const std::string &folder) {
 }  // namespace
 
 ReportSummary writeReport(const std::string &folder, const Run &run, const ImageOfFrame &image_of_frame) {
-  makeFolder(folder);
+  if (run.base != "world")
+    makeFolder(folder);
+  else
+    makePrivateFolder(folder);  // drawings show the sphere centres
   removeOldOverlays(folder);
   const Summary summary = summarize(run);
   PageContent content;

@@ -98,13 +98,13 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
       (audit.quick ? "<p class=soft>A quick audit: fewer lines and views.</p>" : "") + figuresTable(audit) +
       "</section>" + pictures + "</main></html>\n";
   const std::string page = folder + "/audit.html";
-  writeFile(page, html);  // first: by it the next audit knows the folder
+  writeFile(page, html, Readers::kOwner);  // first: by it the next audit knows the folder
   const std::string picture = folder + "/inversion.png";
   std::error_code ignored;
   if (png.empty())
     std::filesystem::remove(picture, ignored);  // of an audit before
   else
-    writeFile(picture, png);
+    writeFile(picture, png, Readers::kOwner);
   return page;
 }
 

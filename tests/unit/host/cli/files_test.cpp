@@ -169,6 +169,22 @@ TEST_F(FilesTest, AFailedBuildLeavesNoLedger) {
 TEST_F(FilesTest, WhatIsPrivateIsReadByItsOwnerAlone) {
   EXPECT_EQ(modeOf(at("room.sphc.owner.json")), 0600u);
   EXPECT_EQ(modeOf(at("spherecloud.ledger")), 0600u);
+  ASSERT_EQ(runCommand("simulate --frames 4 --rate 3 --out " + at("private")).exit_code, kExitDone);
+  for (const std::string &command :
+       {"advise --folds 2 -r " + at("private") + " --picture " + at("private.png"),
+        "map -r " + at("private") + " --model " + at("private.model") + " --trajectory " + at("private.tum"),
+        "localize -r " + at("walk") + " -m " + at("room.sphc") + " --report " + at("shown"),
+        "localize -r " + at("walk") + " -m " + at("room.sphc") + " --owner-note " + at("room.sphc.owner.json") +
+            " --report " + at("private_report")}) {
+    const Answer answer = runCommand(command);
+    ASSERT_EQ(answer.exit_code, kExitDone) << command << answer.err;
+  }
+  ASSERT_EQ(runCommand("audit " + at("room.sphc") + " --only file --report " + at("private_audit")).exit_code,
+            kExitAuditIncomplete);
+  for (const char *file : {"private.png", "private.tum", "private_audit/audit.html"})
+    EXPECT_EQ(modeOf(at(file)), 0600u) << file;
+  EXPECT_EQ(modeOf(at("private_report")), 0700u) << "its drawings show the sphere centre";
+  EXPECT_EQ(modeOf(at("shown")), modeOf(at("walk"))) << "in the map's own frame nothing is private";
 }
 
 TEST_F(FilesTest, LocalizeReplacesItsOwnOutputsAlone) {
