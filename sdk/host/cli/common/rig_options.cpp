@@ -19,7 +19,7 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
   add("--depth", options->depth, "and a depth camera: v4l2:/dev/video2")->type_name("CAMERA");
   add("-c,--calibration", options->wish.calibration, "Calibration file; `spherecloud calibration` makes one")
       ->type_name("FILE");
-  add("--width", options->wish.width, "Size of V4L2 and libcamera images, pixels")
+  add("--width", options->wish.width, "Size of V4L2 and libcamera images, of colour and depth alike, pixels")
       ->capture_default_str()
       ->transform(wholeFrom(0, UINT32_MAX));
   add("--height", options->wish.height, "The same")->capture_default_str()->transform(wholeFrom(0, UINT32_MAX));
