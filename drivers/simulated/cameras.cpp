@@ -127,3 +127,8 @@ sphc_status sphc_simulated_parse_cameras(const char *name, uint32_t *cameras, sp
   explain(message, "simulated: cameras '%s' are unknown; there are %s", name, names().c_str());
   return SPHC_E_ARGUMENT;
 }
+
+const char *sphc_simulated_cameras_name(uint32_t cameras) {
+  using namespace sphc::simulated;
+  return cameras < std::size(kKinds) ? kKinds[cameras].name : "unknown";
+}

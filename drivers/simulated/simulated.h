@@ -132,6 +132,8 @@ sphc_status sphc_simulated_parse_with(const char *names, uint32_t *with, sphc_me
 /* The number of "headset", "phone", "wide" or "glasses".  *cameras is written on success.  ARGUMENT: a null
  * pointer, or a name that is none (which, and all there are). [pure] */
 sphc_status sphc_simulated_parse_cameras(const char *name, uint32_t *cameras, sphc_message *message);
+/* The name of a number; "unknown" of any other. [pure] */
+const char *sphc_simulated_cameras_name(uint32_t cameras);
 
 /* Builds and paints the room.  `config` is copied.  On success *simulated is owned by the caller, who closes it.
  * Errors: ARGUMENT (which field, the value seen and the range), STRUCT_SIZE, MEMORY_SIZE (out of memory), INTERNAL.

@@ -7,17 +7,16 @@
 namespace sphc::host {
 namespace {
 
-uint64_t numberOf(const std::string &item, const std::string &text) {
-  uint64_t number = 0;
+template <typename Number>
+void readNumber(const std::string &item, const std::string &text, Number *number) {
   const char *end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const auto [rest, error] = std::from_chars(text.data(), end, *number);
   if (error != std::errc() || rest != end)
     throw std::runtime_error("simulated: " + item + " has no number; write as in seed=7");
-  return number;
 }
 
 // An address is a list: names of what makes the world hard, and seed=N, walk-seed=N, arrangement=N,
-// cameras=NAME.
+// row-time-ns=N, cameras=NAME.
 sphc_simulated_config configOf(const std::string &address) {
   sphc_simulated_config config;
   sphc_simulated_config_init(&config, sizeof config);
@@ -27,15 +26,17 @@ sphc_simulated_config configOf(const std::string &address) {
     const std::string item = address.substr(begin, end - begin);
     const size_t equals = item.find('=');
     const std::string key = item.substr(0, equals);
-    const auto value = [&] { return numberOf(item, item.substr(equals + 1)); };
+    const auto read = [&](auto *number) { readNumber(item, item.substr(equals + 1), number); };
     if (equals == std::string::npos) {
       names += (names.empty() ? "" : ",") + item;
     } else if (key == "seed") {
-      config.seed = value();
+      read(&config.seed);
     } else if (key == "walk-seed") {
-      config.walk_seed = value();
+      read(&config.walk_seed);
     } else if (key == "arrangement") {
-      config.arrangement_seed = value();
+      read(&config.arrangement_seed);
+    } else if (key == "row-time-ns") {
+      read(&config.color_row_time_ns);
     } else if (key == "cameras") {
       orThrow("simulated:" + address, [&](sphc_message *message) {
         return sphc_simulated_parse_cameras(item.c_str() + equals + 1, &config.cameras, message);
@@ -43,7 +44,7 @@ sphc_simulated_config configOf(const std::string &address) {
     } else {
       throw std::runtime_error(
           "simulated: " + key +
-          " is unknown; there are seed=, walk-seed=, arrangement=, cameras=, and names alone, as in "
+          " is unknown; there are seed=, walk-seed=, arrangement=, row-time-ns=, cameras=, and names alone, as in "
           "simulated:people,tiles");
     }
     begin = end + 1;
@@ -60,6 +61,7 @@ class SimulatedDevice : public Device {
     if (!wish.color || !wish.depth)
       throw std::runtime_error("simulated: gives both streams; say --device simulated:");
     const sphc_simulated_config config = configOf(address);
+    cameras_ = sphc_simulated_cameras_name(config.cameras);
     orThrow("simulated:" + address,
             [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated_, message); });
     source_.struct_size = sizeof source_;
@@ -67,13 +69,14 @@ class SimulatedDevice : public Device {
   }
   ~SimulatedDevice() override { sphc_simulated_close(&simulated_); }
 
-  std::string describe() const override { return "simulated headset"; }
+  std::string describe() const override { return "simulated headset, cameras=" + cameras_; }
   bool calibration(sphc_rig *calibration) const override {
     return sphc_simulated_rig(simulated_, calibration) == SPHC_OK;
   }
   bool waits() const override { return true; }
 
  private:
+  std::string cameras_;  // their name
   sphc_simulated *simulated_ = nullptr;
 };
 

@@ -29,6 +29,7 @@ TEST(SimulatedCameras, HaveNamesAndRigsThatTheLibraryTakes) {
     uint32_t parsed = 99;
     EXPECT_EQ(sphc_simulated_parse_cameras(kNames[kind], &parsed, nullptr), SPHC_OK);
     EXPECT_EQ(parsed, kind);
+    EXPECT_STREQ(sphc_simulated_cameras_name(kind), kNames[kind]);
     sphc_message message{};
     const sphc_rig rig = camerasOf(kind).rig;
     EXPECT_EQ(sphc_rig_check(&rig, &message), SPHC_OK) << message.text;
@@ -44,6 +45,7 @@ TEST(SimulatedCameras, UnknownOnesAreRefusedWithThoseThatThereAre) {
   EXPECT_EQ(sphc_simulated_parse_cameras(nullptr, &cameras, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_parse_cameras("wide", nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(cameras, 99u);
+  EXPECT_STREQ(sphc_simulated_cameras_name(99), "unknown");
 }
 
 TEST(SimulatedCameras, TheSourceGivesImagesOfTheRigsSizes) {
