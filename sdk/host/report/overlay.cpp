@@ -95,10 +95,13 @@ std::vector<Highlight> chooseHighlights(const Run &run) {
   if (!order.empty()) chosen.push_back({"best", "Best pose", order.front()});
   if (order.size() > 2) chosen.push_back({"median", "Median pose", order[order.size() / 2]});
   if (order.size() > 1) chosen.push_back({"worst", "Worst accepted pose", order.back()});
-  // Others that are wrong.
+  // Wrong ones that are not among these.
   constexpr size_t kMostWrong = 3;
+  const auto is_shown = [&chosen](size_t i) {
+    return std::any_of(chosen.begin(), chosen.end(), [i](const Highlight &shown) { return shown.frame == i; });
+  };
   for (size_t i : worstFrames(run, kMostWrong))
-    if (isWrong(run.frames[i]) && (order.size() < 2 || i != order.back()))
+    if (isWrong(run.frames[i]) && !is_shown(i))
       chosen.push_back({"wrong_" + std::to_string(run.frames[i].sequence), "Wrong pose", i});
   std::vector<size_t> lost;
   for (size_t i = 0; i < run.frames.size(); ++i) {

@@ -14,8 +14,8 @@ struct Highlight {
   std::string title;  // for people
   size_t frame = 0;   // place in Run::frames
 };
-// Best, median and worst pose (by error, or by inliers where the truth is not known), and up to two frames that
-// were not localized.  Fewer when the run has fewer.
+// Best, median and worst pose (by error, or by inliers where the truth is not known), others that are wrong, and up
+// to two frames that were not localized.  Fewer when the run has fewer, and each once.
 std::vector<Highlight> chooseHighlights(const Run &run);
 // Is this the name that a report gives to the picture of one?
 bool isOverlayFile(const std::string &file);

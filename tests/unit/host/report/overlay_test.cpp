@@ -25,7 +25,15 @@ TEST(Highlights, AreBestMedianWorstAndLost) {
 TEST(Highlights, ShowTheWrongPoses) {
   host::Run run;
   run.frames = {goodFrame(1, 0.30, 0), goodFrame(2, 0.01, 0), goodFrame(3, 0.40, 0), goodFrame(4, 0.02, 11)};
-  EXPECT_EQ(names(run), (std::vector<std::string>{"best:2", "median:1", "worst:3", "wrong_1:1", "wrong_4:4"}));
+  EXPECT_EQ(names(run), (std::vector<std::string>{"best:2", "median:1", "worst:3", "wrong_4:4"}));
+}
+
+TEST(Highlights, ShowAWrongPoseOnce) {
+  host::Run run;
+  run.frames = {goodFrame(1, 0.30, 0)};
+  EXPECT_EQ(names(run), (std::vector<std::string>{"best:1"}));
+  run.frames.push_back(goodFrame(2, 0.40, 0));
+  EXPECT_EQ(names(run), (std::vector<std::string>{"best:1", "worst:2"}));
 }
 
 TEST(Highlights, GoByInliersWithoutTruth) {
