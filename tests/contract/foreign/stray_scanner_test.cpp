@@ -182,6 +182,22 @@ TEST_F(StrayScanner, ACameraInEveryLineNeedsNoMatrix) {
   EXPECT_EQ(reader.calibration().color_camera.params[1], 101);
 }
 
+TEST_F(StrayScanner, ACalibrationStandsInForTheMatrix) {
+  std::filesystem::remove(folder_ / "camera_matrix.csv");
+  EXPECT_THAT(refusalOfOpen(), AllOf(HasSubstr("camera_matrix.csv: is not there"),
+                                     HasSubstr("copy that file too, or give a calibration file")));
+  recording::ReaderOptions options;
+  options.calibration = folder_.write("rig.json", R"({"format": "spherecloud-calibration", "version": 1,
+    "pixel_center": 0.5, "depth_unit_m": 0.001,
+    "color_camera": {"model": "pinhole", "width": 128, "height": 96, "params": [90, 90, 64, 48]},
+    "depth_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [22, 22, 16, 12]},
+    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}})");
+  RecordingReader reader(folder_.path(), options);
+  EXPECT_EQ(reader.calibration().color_camera.params[0], 90);
+  ASSERT_EQ(reader.frameCount(), kFrames);
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(3).depth.data)[8], 1003);
+}
+
 TEST_F(StrayScanner, WhatIsWrongIsNamed) {
   const std::string odometry = folder_.read("odometry.csv");
   folder_.write("odometry.csv", "timestamp, frame, x\n");

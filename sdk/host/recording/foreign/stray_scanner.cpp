@@ -144,6 +144,21 @@ void addImages(const StrayOdometry &odometry, const StrayColor &color, Recording
                                      "depth of .npy files is not read)");
 }
 
+PinholeParams paramsOf(const fs::path &folder, const StrayOdometry &odometry) {
+  if (odometry.params) return *odometry.params;
+  const fs::path file = folder / "camera_matrix.csv";
+  if (!fs::exists(file))
+    throw Failure(SPHC_E_ARGUMENT, shortPath(file.string()) +
+                                       ": is not there, and odometry.csv tells no camera; copy that file too, or "
+                                       "give a calibration file");
+  return parsedFile(file, strayCameraFrom);
+}
+
+sphc_rig rigOfStray(const StrayOdometry &odometry, const StrayColor &color, const Recording &recording) {
+  return oneCameraRig(paramsOf(recording.path, odometry), color.size,
+                      sizeInFile(recording.path, recording.depth.front().file), shortPath(recording.path.string()));
+}
+
 }  // namespace
 
 // Two of its files tell it, so that the one that is missing can be named; rgb and depth are of other layouts too.
@@ -166,12 +181,13 @@ Recording openStrayScanner(const fs::path &folder) {
                                      ": a recording of StrayScanner without odometry.csv, which has its times and "
                                      "poses; copy that too");
   const StrayOdometry odometry = parsedFile(folder / "odometry.csv", strayOdometryFrom);
-  const PinholeParams params =
-      odometry.params ? *odometry.params : parsedFile(folder / "camera_matrix.csv", strayCameraFrom);
   const StrayColor color = findColor(folder, odometry);
   addImages(odometry, color, recording);
-  recording.calibration = oneCameraRig(params, color.size, sizeInFile(folder, recording.depth.front().file),
-                                       shortPath(folder.string()));
+  try {
+    recording.calibration = rigOfStray(odometry, color, recording);
+  } catch (const Failure &failure) {  // told only where nobody gives a calibration file
+    recording.calibration_fault = failure.what();
+  }
   return recording;
 }
 
