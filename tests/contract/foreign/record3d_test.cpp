@@ -219,6 +219,7 @@ TEST_P(R3d, FramesWithoutAPartnerAreNone) {
   const RecordingReader reader(write());
   ASSERT_EQ(reader.frameCount(), 2u);
   EXPECT_EQ(reader.colorOf(1).sequence, 3u);
+  EXPECT_EQ(reader.recording().lost_count, 1u) << "the colour image";
 }
 
 TEST_P(R3d, WhatIsDamagedIsNamed) {
@@ -335,6 +336,7 @@ TEST_P(Record3d, FramesWithoutAPartnerAreNone) {
   const RecordingReader reader(folder_.path());
   ASSERT_EQ(reader.frameCount(), 2u);
   EXPECT_EQ(reader.colorOf(1).sequence, 3u);
+  EXPECT_EQ(reader.recording().lost_count, 1u) << "the colour image";
 }
 
 TEST_P(Record3d, WhatIsDamagedIsNamed) {

@@ -88,7 +88,10 @@ void addFrames(const Record3dMetadata &metadata, const FileSet &files, const Rec
     const uint32_t number = static_cast<uint32_t>(i);
     const std::string color = colorFileOf(files, names, i),
                       depth = names.depth + std::to_string(i) + names.depth_ending;
-    if (!color.empty()) recording.color.push_back({time_ns, number, color});
+    if (!color.empty())
+      recording.color.push_back({time_ns, number, color});
+    else
+      ++recording.lost_count;
     if (files.has(depth)) recording.depth.push_back({time_ns, number, depth});
     if (metadata.world_from_camera[i])
       recording.poses.add(time_ns, *metadata.world_from_camera[i]);
