@@ -38,13 +38,22 @@ std::optional<TextFile> readRigs(const std::string &cameras_path) {
   return readText(rigs.string());
 }
 
-// A folder stands for what is written into one: COLMAP's cameras.txt, or ROS's files.
-std::vector<std::string> filesOf(const std::string &path) {
-  if (!std::filesystem::is_directory(path)) return {path};
-  if (!std::filesystem::exists(path + "/" + kRosNames[0])) return {path + "/cameras.txt"};
+std::vector<std::string> rosFilesOf(const std::string &folder) {
   std::vector<std::string> files;
-  for (const char *name : kRosNames) files.push_back(path + "/" + name);
+  for (const char *name : kRosNames) files.push_back(folder + "/" + name);
   return files;
+}
+
+// A folder stands for what is written into one: COLMAP's cameras.txt, or ROS's files.
+std::vector<std::string> filesOf(const std::string &path, std::optional<Format> format) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  const std::string colmap = path + "/cameras.txt", ros = path + "/" + kRosNames[0];
+  if (format == Format::kColmap || !std::filesystem::exists(ros)) return {colmap};
+  if (format != Format::kRos && std::filesystem::exists(colmap))
+    throw std::runtime_error(path + ": holds both " + kRosNames[0] +
+                             " of ROS and cameras.txt of COLMAP; say which " +
+                             "with --format ros or --format colmap, or name the files");
+  return rosFilesOf(path);
 }
 
 // What of a format may stand in for a camera that it cannot hold.
@@ -78,7 +87,7 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
   std::vector<CalibrationPart> parts;
   std::vector<std::string> files;
   for (const std::string &path : paths)
-    for (const std::string &file : filesOf(path)) files.push_back(file);
+    for (const std::string &file : filesOf(path, format)) files.push_back(file);
   for (const std::string &path : files) {
     const TextFile file = readText(path);
     const Format own = format ? *format : detectFormat(file);

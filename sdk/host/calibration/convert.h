@@ -17,8 +17,8 @@ struct ReadCalibration {
   sphc_rig calibration;
   std::vector<ReadFile> files;
 };
-// A folder stands for COLMAP's cameras.txt in it, or for the files that writeCalibration makes for ROS.  `format`:
-// of all files; none: each tells by itself.
+// A folder stands for COLMAP's cameras.txt in it, or for the files that writeCalibration makes for ROS, where it
+// has not both.  `format`: of all files; none: each tells by itself.
 ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std::optional<Format> format,
                                      const JoinOptions &options);
 

@@ -120,6 +120,25 @@ TEST(ReadFiles, MayBeginWithAByteOrderMark) {
   EXPECT_EQ(readCalibrationFiles({own}, {}, {}).files[0].format, Format::kSpherecloud);
 }
 
+TEST(ReadFiles, AFolderOfTwoFormatsIsReadAsTheOneThatIsSaid) {
+  const test::TempFolder folder;
+  const sphc_rig ros = calibrationOf(kCameras[0], kCameras[1]);
+  for (const TextFile &file : writeCalibration(Format::kRos, ros)) folder.write(file.name, file.text);
+  folder.write("cameras.txt", kColmapCamerasFile);
+  folder.write("rigs.txt", kColmapRigsFile);
+  const std::string path = folder.path().string();
+  try {
+    readCalibrationFiles({path}, {}, {});
+    ADD_FAILURE() << "nobody said which";
+  } catch (const std::runtime_error &error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr(path + ": holds both color.yaml of ROS and cameras.txt"),
+                               testing::HasSubstr("--format ros or --format colmap")));
+  }
+  EXPECT_EQ(readCalibrationFiles({path}, Format::kColmap, {}).calibration.color_camera.width, 3072u);
+  EXPECT_EQ(readCalibrationFiles({path}, Format::kRos, {}).calibration.color_camera.width, ros.color_camera.width);
+}
+
 TEST(ReadFiles, SaysWhichFileIsWrong) {
   const test::TempFolder folder;
   const auto refusal = [](const std::string &path) -> std::string {
