@@ -216,7 +216,7 @@ TEST_F(RecordedAmplitude, ItsEncodingIsNoColour) {
   writer.finish({});
   std::string why;
   EXPECT_EQ(readForged(&why), SPHC_E_DEVICE);
-  EXPECT_THAT(why, HasSubstr("encoding"));
+  EXPECT_THAT(why, HasSubstr("is of the encoding \"mono16\" in place of bgr8, rgb8 or mono8"));
 }
 
 }  // namespace

@@ -13,6 +13,11 @@ namespace {
   throw Failure(SPHC_E_DEVICE, std::string("is malformed (") + what + "); record it again");
 }
 
+[[noreturn]] void failOtherEncoding(std::string_view encoding, std::string_view wanted) {
+  throw Failure(SPHC_E_DEVICE, "is of the encoding \"" + std::string(encoding.substr(0, 40)) + "\" in place of " +
+                                   std::string(wanted) + "; record it again in that");
+}
+
 }  // namespace
 
 void MessageDecoder::decode(Kind kind, ByteView message, const sphc_camera &camera, sphc_format format,
@@ -33,7 +38,8 @@ void MessageDecoder::decodeRaw(ByteView message, const sphc_camera &camera, sphc
   const sphc_format recorded = formatOf(image.encoding);
   const bool is_color = format != SPHC_FORMAT_DEPTH16 && format != SPHC_FORMAT_GRAY16;
   const bool is_recorded_color = isRecorded(recorded) && recorded != SPHC_FORMAT_DEPTH16;
-  if (is_color ? !is_recorded_color : recorded != format) failMalformed("its encoding");
+  if (is_color ? !is_recorded_color : recorded != format)
+    failOtherEncoding(image.encoding, is_color ? "bgr8, rgb8 or mono8" : encodingOf(format));
   requireSize(image.width, image.height, camera, is_color);
   const uint64_t row_bytes = uint64_t{image.width} * sphc_format_bytes(recorded);
   if (image.step < row_bytes || uint64_t{image.step} * image.height > image.data.size) failMalformed("its rows");

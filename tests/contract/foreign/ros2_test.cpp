@@ -440,6 +440,27 @@ TEST_F(Ros2, AnEncodingThatIsNotReadIsNamed) {
   EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("is of the encoding \"bayer_rggb8\"; rgb8, bgr8"));
 }
 
+TEST_F(Ros2, GreyOf16BitsNamesWhatIsRead) {
+  addColor(0, "/camera/image_raw", "mono16");
+  addDepth(0);
+  EXPECT_THAT(refusalOfOpen(),
+              AllOf(HasSubstr("/camera/image_raw of mono16"), HasSubstr("; rgb8, bgr8"), HasSubstr("mono8")));
+}
+
+TEST_F(Ros2, FourChannelsOfOpencvAreBgra) {
+  Bytes pixels;
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) pixels.insert(pixels.end(), {1, 2, 3, 255});
+  bag_.add("/camera/color/image_raw", kImage, kStartNs,
+           test::rosImage(kStartNs, kColorFrame, kWidth, kHeight, "8UC4", pixels));
+  addDepth(0);
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  RecordingReader reader(write());
+  const auto *bgr = static_cast<const uint8_t *>(reader.read(0).color.data);
+  for (uint32_t i = 0; i < 6; ++i) EXPECT_EQ(bgr[i], 1 + i % 3);
+}
+
 // Of several inertial sensors the one that says most; one that is not fixed to the camera says nothing of it.
 TEST_F(Ros2, AccelerationsOfTheBodyThatHasTheCamera) {
   addImagesAndCameras();

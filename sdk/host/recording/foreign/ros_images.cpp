@@ -34,7 +34,7 @@ void requireRows(const RosImage &image, uint32_t pixel_bytes) {
 }
 
 void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) {
-  const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8";
+  const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8" || image.encoding == "8UC4";
   if (has_alpha) {
     requireRows(image, 4);
     const sphc_format recorded = image.encoding == "rgba8" ? SPHC_FORMAT_RGB8 : SPHC_FORMAT_BGR8;
@@ -44,7 +44,7 @@ void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) 
                                : image.encoding == "8UC3" ? SPHC_FORMAT_BGR8
                                                           : formatOf(image.encoding);
   if (recorded != SPHC_FORMAT_GRAY8 && recorded != SPHC_FORMAT_RGB8 && recorded != SPHC_FORMAT_BGR8)
-    failEncoding(image.encoding, "rgb8, bgr8, rgba8, bgra8, mono8 and JPEG are read: record such a topic");
+    failEncoding(image.encoding, kReadRosColor);
   requireRows(image, sphc_format_bytes(recorded));
   packPixels({image.data.data, image.width, image.height, image.step, recorded}, format, pixels);
 }
@@ -52,7 +52,7 @@ void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) 
 void decodeRawDepth(const RosImage &image, uint16_t *depth_mm) {
   const bool is_float = image.encoding == "32FC1";
   if (!is_float && image.encoding != "16UC1" && image.encoding != "mono16")
-    failEncoding(image.encoding, "16UC1, mono16 and 32FC1 are read: record such a topic");
+    failEncoding(image.encoding, kReadRosDepth);
   requireRows(image, is_float ? 4 : 2);
   for (uint32_t y = 0; y < image.height; ++y) {
     const uint8_t *row = image.data.data + size_t{y} * image.step;

@@ -6,6 +6,7 @@
 
 #include "host/recording/failure.h"
 #include "host/recording/foreign/realsense_topics.h"
+#include "host/recording/foreign/ros_images.h"
 
 namespace sphc::recording {
 
@@ -51,8 +52,8 @@ int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
          (topic.frame == color.frame ? 4 : 0);
 }
 
-const RosImageTopic &chooseTopic(const RosContent &content, const char *what, const std::string &file,
-                                 const std::function<int(const RosImageTopic &)> &score) {
+const RosImageTopic &chooseTopic(const RosContent &content, const char *what, const char *cure,
+                                 const std::string &file, const std::function<int(const RosImageTopic &)> &score) {
   const RosImageTopic *best = nullptr, *other = nullptr;
   int highest = 0;
   std::string topics;
@@ -65,8 +66,8 @@ const RosImageTopic &chooseTopic(const RosContent &content, const char *what, co
   }
   if (!best)
     throw Failure(SPHC_E_ARGUMENT, file + ": holds no " + what + " image that is read (topics of images: " +
-                                       (topics.empty() ? "none" : shortPath(topics)) +
-                                       "); docs/imports.md says which are");
+                                       (topics.empty() ? "none" : shortPath(topics)) + "); " + cure +
+                                       " (docs/imports.md)");
   if (other)
     throw Failure(SPHC_E_ARGUMENT, file + ": both " + other->name + " and " + best->name + " may be the " + what +
                                        " images; leave one out (docs/imports.md says how)");
@@ -78,11 +79,12 @@ std::string parentOf(const std::string &topic) { return topic.substr(0, topic.rf
 }  // namespace
 
 const RosImageTopic &chooseColor(const RosContent &content, const std::string &file) {
-  return chooseTopic(content, "colour", file, colorScore);
+  return chooseTopic(content, "colour", kReadRosColor, file, colorScore);
 }
 
 const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic &color, const std::string &file) {
-  return chooseTopic(content, "depth", file, [&](const RosImageTopic &topic) { return depthScore(topic, color); });
+  return chooseTopic(content, "depth", kReadRosDepth, file,
+                     [&](const RosImageTopic &topic) { return depthScore(topic, color); });
 }
 
 bool isOfRectified(const RosImageTopic &topic) {
