@@ -121,7 +121,7 @@ sphc_status sphc_replay_source(sphc_replay *replay, sphc_source *source);
 /* ---- frame by frame ----------------------------------------------------------------------------------------- */
 
 /* Frames are the chosen colour images that have a depth image within pair_tolerance_ns, in order of time; of
- * several the nearest.  0 for null. [shared] */
+ * several the nearest.  Where the recording has frames itself, as a raw one has, these.  0 for null. [shared] */
 uint32_t sphc_replay_frame_count(const sphc_replay *replay);
 
 typedef struct sphc_replay_frame_info {

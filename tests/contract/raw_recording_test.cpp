@@ -161,6 +161,32 @@ TEST_F(RawRecording, IsTheFileToTheBit) {
   }
 }
 
+// On a device nothing asks how far apart the two are, and depth of the next frame may be nearer.
+TEST_F(RawRecording, AFrameKeepsItsDepthHoweverLateItIs) {
+  constexpr uint32_t kFrames = 4;
+  constexpr int64_t kLateNs = kPeriodNs * 12 / 5;
+  static_assert(kLateNs > 20000000);
+  RawWriter writer(folder_ / "late.raw", tinyCalibration(), SPHC_FORMAT_BGR8);
+  for (uint32_t i = 0; i < kFrames; ++i) {
+    const TinyImages images(i);
+    sphc_localizer_frame frame = tinyFrame(i, images);
+    frame.depth_time_ns = frame.color_time_ns + kLateNs;
+    writer.add(frame, nullptr);
+  }
+  writer.finish();
+  recording::ReaderOptions options;
+  for (const uint32_t step : {1u, 2u}) {
+    options.selection.step = step;
+    RecordingReader reader(folder_ / "late.raw", options);
+    ASSERT_EQ(reader.frameCount(), kFrames / step);
+    for (uint32_t i = 0; i < reader.frameCount(); ++i) {
+      const sphc_localizer_frame frame = reader.read(i);
+      EXPECT_EQ(frame.depth_time_ns, frame.color_time_ns + kLateNs);
+      EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[0], tinyDepth(step * i, 0, 0));
+    }
+  }
+}
+
 TEST_F(RawRecording, KnowsWhereThereIsNoPose) {
   std::filesystem::remove(folder_ / "walk/groundtruth.txt");
   writeRaw(folder_ / "walk", folder_ / "lost.raw");

@@ -117,8 +117,9 @@ std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_
   if (recording.is_by_frame) tolerance_ns = 0;
   pairs.reserve(recording.color.size());
   for (size_t i = 0; i < recording.color.size(); ++i) {
-    const size_t nearest = nearestInTime(recording.depth, recording.color[i].time_ns);
-    if (std::abs(recording.depth[nearest].time_ns - recording.color[i].time_ns) <= tolerance_ns)
+    const int64_t wanted_ns = recording.color[i].time_ns + recording.color[i].depth_after_ns;
+    const size_t nearest = nearestInTime(recording.depth, wanted_ns);
+    if (std::abs(recording.depth[nearest].time_ns - wanted_ns) <= tolerance_ns)
       pairs.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(nearest)});
   }
   return pairs;

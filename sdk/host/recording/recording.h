@@ -46,9 +46,10 @@ struct MessagePlace {
 struct RecordedImage {
   int64_t time_ns;
   uint32_t sequence;
-  std::string file;         // relative to the folder
-  CaptureNote note = {};    // what else is known, in an MCAP file
-  MessagePlace place = {};  // likewise
+  std::string file;            // relative to the folder
+  CaptureNote note = {};       // what else is known, in an MCAP file
+  MessagePlace place = {};     // likewise
+  int64_t depth_after_ns = 0;  // of a colour image, in a recording by frames: how much later its depth image is
   // Of a depth image, whose amplitudes the file has; else of no kind.  Of a layout that reads its images itself
   // kAmplitudeImage.
   MessagePlace amplitude = {};
@@ -69,7 +70,7 @@ struct Recording {
 
   std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder
   std::string calibration_fault;        // why it holds none, with name and cure; empty where nothing is to be said
-  // A depth image belongs to the colour image of its time alone, however near the next one is.
+  // A depth image belongs to the colour images that say so alone, however near the next one is.
   bool is_by_frame = false;
   LayoutImagesMaker images;  // of a layout that reads its images itself
 

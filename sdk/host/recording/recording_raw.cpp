@@ -28,6 +28,7 @@ bool addFrame(const sphc_raw_frame &recorded, uint32_t index, Recording &recordi
   if (!recording.color.empty() && frame.color_time_ns <= recording.color.back().time_ns) return false;
   if (has_depth && frame.depth_time_ns < recording.depth.back().time_ns) return false;
   recording.color.push_back(imageOf(frame, frame.color_time_ns, index));
+  recording.color.back().depth_after_ns = frame.depth_time_ns - frame.color_time_ns;
   if (!has_depth || frame.depth_time_ns > recording.depth.back().time_ns)
     recording.depth.push_back(imageOf(frame, frame.depth_time_ns, index));
   if (recorded.has_pose) recording.poses.add(frame.color_time_ns, recorded.world_from_camera);
@@ -43,6 +44,7 @@ Recording openRaw(const fs::path &path) {
   recording.layout = Layout::kRaw;
   recording.path = path;
   recording.calibration = file.raw().rig;
+  recording.is_by_frame = true;
   for (uint32_t i = 0; i < file.raw().frame_count; ++i)
     if (!addFrame(file.head(i), i, recording))
       throw Failure(SPHC_E_ARGUMENT,
