@@ -6,6 +6,7 @@
 #include "host/recording/failure.h"
 #include "host/recording/recording_reader.h"
 #include "player.h"
+#include "reader.h"
 
 using namespace sphc::recording;
 
@@ -25,6 +26,12 @@ struct sphc_replay {
   RecordingReader reader;
   sphc::replay::Player player;  // with buffers of its own
 };
+
+namespace sphc::replay {
+
+RecordingReader *readerOf(sphc_replay *replay) { return &replay->reader; }
+
+}  // namespace sphc::replay
 
 namespace {
 

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,7 +28,6 @@ using Grade = Finding::Grade;
 constexpr uint32_t kEveryPair = 5;      // of the pairs, those whose geometry is looked at
 constexpr uint32_t kMostCaptures = 20;  // of a recording, for each pair that is wanted
 constexpr std::chrono::seconds kPatience(30);
-constexpr std::string_view kReplay = "replay:";  // a camera that is a recording
 
 struct DoctorOptions {
   RigOptions rig;
@@ -142,15 +140,6 @@ class CaptureChecks {
   bool fit_ = false;
 };
 
-// The recording that is played; null where it is cameras.
-std::unique_ptr<recording::RecordingReader> recordingOf(const RigOptions &rig) {
-  if (rig.both.rfind(kReplay, 0) != 0) return nullptr;
-  recording::ReaderOptions options;
-  options.calibration = rig.wish.calibration;
-  options.pair_tolerance_ns = static_cast<int64_t>(1e6 * rig.tolerance_ms);
-  return std::make_unique<recording::RecordingReader>(rig.both.substr(kReplay.size()), options);
-}
-
 void watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChecks *checks) {
   StatusLine line;
   const Interrupt interrupt;
@@ -177,7 +166,7 @@ Findings lookAt(DoctorOptions options, const Console &console) {
   Rig rig(options.rig, [&of_captures](const std::string &trouble) { of_captures.add(trouble); });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
-  const auto recording = recordingOf(options.rig);
+  recording::RecordingReader *const recording = rig.replayed();
   if (recording)
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
   CaptureChecks checks(calibration, recording != nullptr);
@@ -192,7 +181,7 @@ Findings lookAt(DoctorOptions options, const Console &console) {
       findings.push_back({Grade::kDoubtful, "times", fault});
   const sphc_pairer_counts counts = rig.counts();
   append(checks.ofPairs(counts.too_far + counts.overtaken + counts.full), &findings);
-  if (recording && checks.fit()) append(findingsOfPoses(recording.get()), &findings);
+  if (recording && checks.fit()) append(findingsOfPoses(recording), &findings);
   return findings;
 }
 

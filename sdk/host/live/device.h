@@ -12,6 +12,7 @@
 #include <string>
 
 #include "host/recording/calibration.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 
@@ -22,6 +23,7 @@ struct Wish {
   uint32_t width = 640, height = 480, fps = 0;  // fps 0: whatever the camera does
   std::string calibration;                      // of a recording that has none beside it
   bool at_once = false;                         // a recording as fast as it can be read, not as it was recorded
+  double tolerance_ms = 20;                     // colour and depth of a recording's frame are at most so far apart
 };
 
 // Captures that may be out on loan at once: those that wait in a pairer, and those in use.
@@ -43,6 +45,8 @@ class Device {
   virtual bool calibration(sphc_rig * /*calibration*/) const { return false; }
   // Frames wait until they are asked for, so none need be skipped.
   virtual bool waits() const { return false; }
+  // The recording that is played, opened once for both uses; null of all others.
+  virtual recording::RecordingReader *replayed() const { return nullptr; }
 
  protected:
   sphc_source source_ = {};

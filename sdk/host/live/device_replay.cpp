@@ -1,3 +1,4 @@
+#include "drivers/replay/reader.h"
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
 #include "host/live/device_kind.h"
@@ -16,6 +17,7 @@ class ReplayDevice : public Device {
     if (wish.color) config.streams |= SPHC_REPLAY_STREAM_COLOR;
     if (wish.depth) config.streams |= SPHC_REPLAY_STREAM_DEPTH;
     config.loan_limit = 2 * kLoans;
+    config.pair_tolerance_ns = static_cast<int64_t>(1e6 * wish.tolerance_ms);
     const char *calibration = wish.calibration.empty() ? nullptr : wish.calibration.c_str();
     orThrow("replay:" + address, [&](sphc_message *message) {
       return sphc_replay_open(address.c_str(), calibration, &config, &replay_, message);
@@ -36,6 +38,7 @@ class ReplayDevice : public Device {
     return sphc_replay_rig(replay_, calibration) == SPHC_OK;
   }
   bool waits() const override { return true; }
+  recording::RecordingReader *replayed() const override { return replay::readerOf(replay_); }
 
  private:
   std::string address_;

@@ -49,6 +49,7 @@ void Rig::add(const std::string &spec, bool color, bool depth) {
   camera.wish = options_.wish;
   camera.wish.color = color;
   camera.wish.depth = depth;
+  camera.wish.tolerance_ms = options_.tolerance_ms;
   sphc_memory need = {};
   sphc_clock_mapper_memory(&need);
   camera.mapper_memory.resize(need.state_bytes / sizeof(uint64_t) + 1);
@@ -240,6 +241,10 @@ sphc_pairer_counts Rig::counts() const {
 
 bool Rig::calibration(sphc_rig *calibration) const {
   return cameras_.size() == 1 && cameras_[0].device && cameras_[0].device->calibration(calibration);
+}
+
+recording::RecordingReader *Rig::replayed() const {
+  return cameras_.size() == 1 && cameras_[0].device ? cameras_[0].device->replayed() : nullptr;
 }
 
 bool Rig::waits() const {

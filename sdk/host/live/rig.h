@@ -52,6 +52,8 @@ class Rig {
   sphc_pairer_counts counts() const;
   bool calibration(sphc_rig *calibration) const;
   bool waits() const;
+  // That is played in the place of one camera of both streams; null where it is cameras.
+  recording::RecordingReader *replayed() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -73,6 +73,21 @@ TEST_F(RigTest, WhatIsTooFarApartIsNoPair) {
   EXPECT_EQ(counts.too_far + counts.overtaken + counts.full + counts.ended, 2 * kRecordedFrames);
 }
 
+TEST_F(RigTest, ARecordingIsThereFrameByFrameToo) {
+  const auto rig = open();
+  CapturePair pair;
+  ASSERT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kPair);
+  ASSERT_NE(rig->replayed(), nullptr);
+  EXPECT_EQ(rig->replayed()->frameCount(), kRecordedFrames);
+  EXPECT_EQ(rig->replayed()->read(1).color_time_ns, contract::kFirstNs + contract::kPeriodNs);
+  rig->release(pair);
+  EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kPair) << "the source is not disturbed";
+  EXPECT_EQ(pair.color.sequence, 1u);
+  rig->release(pair);
+  options_.tolerance_ms = 0.5;
+  EXPECT_EQ(open()->replayed()->frameCount(), 0u) << "pairs are those of the rig";
+}
+
 // Read at once, a recording without pairs comes to its end in steps that the caller sees.
 TEST_F(RigTest, ManyCapturesWithoutAPairAreNothing) {
   const std::string walk = folder_ / "long";
