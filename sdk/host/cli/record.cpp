@@ -95,6 +95,18 @@ void sayResult(const RecordOptions &options, const RecordTally &tally, const sph
   console.giveLine(json);
 }
 
+// What a recording has that cameras have not.
+void noteWhatStays(const Rig &rig, const Console &console) {
+  if (!rig.replayed()) return;
+  const recording::Recording &replayed = rig.replayed()->recording();
+  const size_t poses = replayed.poses.poses().size(), accelerations = replayed.accelerations.size();
+  if (poses + accelerations == 0) return;
+  console.warn("note: left out: " + (poses ? counted(poses, "pose") : "") +
+               (poses && accelerations ? " and " : "") +
+               (accelerations ? counted(accelerations, "acceleration") : "") +
+               " of the recording that is played; `spherecloud convert` keeps them");
+}
+
 // Until the cameras end, a signal comes or the time is over.
 void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
                StatusLine *line, RecordTally *tally, RecordGuide *guide, const Rig::Tell &tell) {
@@ -139,6 +151,7 @@ int run(const RecordOptions &options, const Console &console) {
   };
   Rig rig(options.rig, tell);
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
+  noteWhatStays(rig, console);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
   const auto guide = options.guide ? std::make_unique<RecordGuide>(calibration, rig.waits(), console) : nullptr;
   if (guide) std::signal(SIGPIPE, SIG_IGN);  // a recording outlives the program that reads the advice

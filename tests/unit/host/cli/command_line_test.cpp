@@ -651,6 +651,7 @@ void expectCaptures(const test::TempFolder &folder, const std::string &walk, con
   EXPECT_EQ(json["color"], 6);
   EXPECT_EQ(json["depth"], 6);
   EXPECT_EQ(json["dropped"], 0);
+  EXPECT_THAT(recorded.err, HasSubstr("left out: 6 poses of the recording that is played"));
   EXPECT_EQ(runCommand("localize -r " + file + " -m " + map).exit_code, kExitDone);
 
   const Answer doctor = runCommand("doctor --json" + camera);
