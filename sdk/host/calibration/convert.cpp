@@ -56,6 +56,13 @@ std::vector<std::string> filesOf(const std::string &path, std::optional<Format> 
   return rosFilesOf(path);
 }
 
+// ROS has no place for where two cameras are to each other; the file of that is OpenCV's.
+Format formatOf(const TextFile &file, std::optional<Format> said) {
+  if (!said) return detectFormat(file);
+  const bool is_of_both = std::filesystem::path(file.name).filename() == kRosNames[2];
+  return said == Format::kRos && is_of_both ? Format::kOpencv : *said;
+}
+
 // What of a format may stand in for a camera that it cannot hold.
 std::vector<WantedModel> modelsOf(Format format) {
   if (format == Format::kKalibr) return {{SPHC_CAMERA_BROWN5, 8}, {SPHC_CAMERA_KANNALA_BRANDT4, 8}};
@@ -90,7 +97,7 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
     for (const std::string &file : filesOf(path, format)) files.push_back(file);
   for (const std::string &path : files) {
     const TextFile file = readText(path);
-    const Format own = format ? *format : detectFormat(file);
+    const Format own = formatOf(file, format);
     const std::optional<TextFile> rigs = own == Format::kColmap ? readRigs(file.name) : std::nullopt;
     parts.push_back(readCalibration(own, file, rigs ? &*rigs : nullptr));
     result.files.push_back({file.name, own});

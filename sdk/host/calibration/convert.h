@@ -18,7 +18,7 @@ struct ReadCalibration {
   std::vector<ReadFile> files;
 };
 // A folder stands for COLMAP's cameras.txt in it, or for the files that writeCalibration makes for ROS, where it
-// has not both.  `format`: of all files; none: each tells by itself.
+// has not both.  `format`: of all files but the one of ROS's that is OpenCV's; none: each tells by itself.
 ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std::optional<Format> format,
                                      const JoinOptions &options);
 
