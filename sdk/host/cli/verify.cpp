@@ -1,5 +1,7 @@
 // spherecloud verify: would a device accept this map?
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -15,7 +17,17 @@ struct VerifyOptions {
   TrustOptions trust;
 };
 
+// A map that nobody signed has none beside it; one that is named must be there.
+void checkNamedSignature(const std::string &path) {
+  std::error_code error;
+  if (path.empty() || std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) return;
+  throw std::runtime_error("--signature: " + path +
+                           " is missing; give the file that spherecloud sign wrote, or leave --signature out where "
+                           "it lies beside the map");
+}
+
 int verify(const VerifyOptions &options, const Console &console) {
+  checkNamedSignature(options.signature);
   Trust trust = trustOf(options.trust);
   if (options.has_name->count() > 0) {
     checkMapName(options.name);

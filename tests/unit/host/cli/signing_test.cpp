@@ -70,6 +70,15 @@ TEST_F(SigningTest, RefusalsHaveACause) {
   expectRefused(trust, "only signed maps are accepted");
 }
 
+TEST_F(SigningTest, ANamedSignatureThatIsMissingIsSaidToBe) {
+  const std::string missing = folder_ / "none.sig";
+  const Answer answer = verify("--signature " + missing);
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("--signature: " + missing + " is missing; give the file that"));
+  EXPECT_THAT(answer.err, Not(HasSubstr("not signed")));
+  EXPECT_EQ(verify("--signature " + map_ + ".sig").exit_code, kExitDone);
+}
+
 // As of a script in which a variable is not set: "any" would accept too much.
 TEST_F(SigningTest, VerifyTakesTheNameAtItsWord) {
   EXPECT_THAT(verify("--name ''").err, HasSubstr("another name"));
