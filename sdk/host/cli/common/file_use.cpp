@@ -82,6 +82,17 @@ void checkFolderToMake(const std::string &option, const std::string &path) {
   checkMayMake(option, path, folder);
 }
 
+// What went into a device or a pipe would be kept nowhere.
+void checkNew(const std::string &option, const std::string &path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    refuse(option, path, "is a device or a pipe, which keeps no key; give the name of a new file");
+  if (fs::exists(fs::symlink_status(path, error)))
+    refuse(option, path, "is there already, and keys are never replaced; choose another name");
+  checkParent(option, path);
+}
+
 // Both at once would be mixed, or one would overwrite the other.
 bool isStandardOutput(const std::string &path) {
   struct stat file, standard;
@@ -184,13 +195,12 @@ void FileUse::checkFile(const Output &output) const {
   if (fs::exists(status) && !fs::is_character_file(status) && isStandardOutput(path))
     refuse(output.option, path, "is where this command's own words go; give a file of its own");
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
+  if (output.kind == Kind::kNew) return checkNew(output.option, path);
   if (fs::is_character_file(status) || fs::is_fifo(status)) return;
   checkParent(output.option, path);
   if (!fs::exists(status) || output.kind == Kind::kKept) return;
   if (!fs::is_regular_file(status))
     refuse(output.option, path, "is no file that can be written; choose another name");
-  if (output.kind == Kind::kNew)
-    refuse(output.option, path, "is there already, and keys are never replaced; choose another name");
   if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
   if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
   refuse(output.option, path,

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -106,6 +107,29 @@ TEST_F(FileUseTest, TwoOutputsAreTwoFiles) {
     files.keeps("--ledger", second);
     EXPECT_THROW(files.check(), UsageError) << second;
   }
+}
+
+TEST_F(FileUseTest, AKeyIsANewFileInAFolderThatIsThere) {
+  const auto refused = [](const std::string &path) {
+    FileUse files(true);
+    files.writesNew("--out", path);
+    try {
+      files.check();
+    } catch (const std::runtime_error &error) {
+      return std::string(error.what());
+    }
+    return std::string("fine");
+  };
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("nowhere", folder_ / "link");
+  for (const std::string &path : {std::string("/dev/null"), folder_ / "pipe"})
+    EXPECT_EQ(refused(path),
+              "--out: " + path + " is a device or a pipe, which keeps no key; give the name of a new file");
+  EXPECT_THAT(refused(folder_ / "walk"), HasSubstr("is a folder"));
+  for (const char *name : {"map", "link"})
+    EXPECT_THAT(refused(folder_ / name), HasSubstr("is there already, and keys are never replaced")) << name;
+  EXPECT_THAT(refused(folder_ / "none/new"), HasSubstr("there is no folder"));
+  EXPECT_EQ(refused(folder_ / "new"), "fine");
 }
 
 TEST_F(FileUseTest, WhatIsKeptIsThereAlready) {
