@@ -17,6 +17,7 @@
 #include "host/cli/common/point_source.h"
 #include "host/evaluate/map_file.h"
 #include "host/import/model_file.h"
+#include "host/live/interrupt.h"
 #include "host/publish/ledger.h"
 #include "host/publish/map_writer.h"
 #include "host/publish/release.h"
@@ -171,15 +172,18 @@ Outcome build(const BuildOptions &options, const Console &console) {
   fileUse(options).check();
   warnOfOtherLedger(options, console);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
+  const Interrupt interrupt;  // from before there is a ledger
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
-  outcome.import = importPoints(options.source, console);
+  outcome.import = importPoints(options.source, interrupt, console);
+  interrupt.throwIfCame();  // after the last frame
   for (const std::string &doubt : outcome.import.doubts) console.warn("Warning: " + doubt);
   checkContradictions(options, outcome.import);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   checkSamePlace(options, made.place);
+  interrupt.throwIfCame();  // the last time: what is recorded is brought to its end
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);
   outcome.note = notePath(options);

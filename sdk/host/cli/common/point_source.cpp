@@ -62,7 +62,15 @@ std::optional<Vector3> gravityFrom(const std::string &text) {
   return down;
 }
 
-ImportedPoints fromColmap(const PointSource &source) {
+// Both must outlive it.
+Progress shownBy(ProgressBar *bar, const Interrupt *interrupt) {
+  return [bar, interrupt](uint32_t done, uint32_t total) {
+    if (interrupt) interrupt->throwIfCame();
+    bar->show(done, total);
+  };
+}
+
+ImportedPoints fromColmap(const PointSource &source, const Interrupt &interrupt) {
   ColmapImportOptions options = source.colmap;
   options.descriptors = options.images.empty() ? ColmapDescriptors::kDatabase : ColmapDescriptors::kAgain;
   options.calibration = source.recording.calibration;
@@ -70,8 +78,7 @@ ImportedPoints fromColmap(const PointSource &source) {
   ProgressBar bar("describing");
   ImportedPoints imported;
   ColmapImportSummary summary;
-  imported.model = importColmap(
-      options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  imported.model = importColmap(options, shownBy(&bar, &interrupt), &summary);
   imported.told = "Took " + std::to_string(summary.points_kept) + " of " + std::to_string(summary.points_of_model) +
                   " points of the COLMAP model; one unit of it is " + fixed(summary.metres_per_unit, 4) + " m.";
   if (summary.scale_spread > 0.05)
@@ -138,7 +145,7 @@ ImportedPoints fromModel(const PointSource &source) {
 }  // namespace
 
 ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
-                                const std::string &selection) {
+                                const std::string &selection, const Interrupt *interrupt) {
   uint32_t frames = 0;
   for (const RgbdSource &source : recordings) frames += source.reader->frameCount();
   if (options.min_observations > frames)
@@ -148,8 +155,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
-  imported.model = importRgbd(
-      recordings, options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  imported.model = importRgbd(recordings, options, shownBy(&bar, interrupt), &summary);
   checkPoints(summary, options);
   imported.told = "Mapped " + counted(summary.frames_used, "frame") + " (" + selection +
                   "): " + counted(summary.points_kept, "point") + " kept, " +
@@ -241,12 +247,12 @@ void checkPointSource(const PointSource &source) {
         "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");
 }
 
-ImportedPoints importPoints(const PointSource &source, const Console &console) {
+ImportedPoints importPoints(const PointSource &source, const Interrupt &interrupt, const Console &console) {
   if (!source.model.empty()) return fromModel(source);
-  if (!source.colmap.model.empty()) return fromColmap(source);
+  if (!source.colmap.model.empty()) return fromColmap(source, interrupt);
   const auto reader = openRecording(source.recording);
   noteDamage(*reader, console);
-  return importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
+  return importRecordings({{reader.get()}}, source.import, describeSelection(source.recording), &interrupt);
 }
 
 }  // namespace sphc::host

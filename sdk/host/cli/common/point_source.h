@@ -6,6 +6,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/import/colmap_import.h"
 #include "host/import/rgbd_import.h"
+#include "host/live/interrupt.h"
 
 namespace sphc::host {
 
@@ -31,10 +32,11 @@ struct ImportedPoints {
 // Throw UsageError for options that make no sense together.
 void checkMappingOptions(const RgbdImportOptions &import);
 void checkPointSource(const PointSource &source);
-// Of a source that passed the check.  Throws std::runtime_error with cause and cure.
-ImportedPoints importPoints(const PointSource &source, const Console &console);
+// Of a source that passed the check.  Throws std::runtime_error with cause and cure, and where a signal came.
+ImportedPoints importPoints(const PointSource &source, const Interrupt &interrupt, const Console &console);
 // Of recordings that are open, the oldest first; `selection` says which of their frames (describeSelection()).
+// `interrupt`: ends it too; may be null.
 ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
-                                const std::string &selection);
+                                const std::string &selection, const Interrupt *interrupt = nullptr);
 
 }  // namespace sphc::host

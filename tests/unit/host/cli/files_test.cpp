@@ -335,6 +335,34 @@ TEST_F(FilesTest, AnInterruptedSimulationLeavesNothing) {
   EXPECT_FALSE(fs::exists(out) || fs::exists(out + ".part"));
 }
 
+// The lines of a list again and again, later each time.
+void repeatLines(const std::string &list) {
+  const std::string once = fileText(list);
+  std::ofstream out(list, std::ios::app);
+  for (int k = 1; k < 300; ++k) {
+    std::istringstream lines(once);
+    for (std::string line; std::getline(lines, line);)
+      if (line[0] != '#') out << std::fixed << std::stod(line) + 10 * k << line.substr(line.find(' ')) << '\n';
+  }
+}
+
+// The signal comes once there is a ledger, in a build of many frames.
+TEST_F(FilesTest, AnInterruptedBuildLeavesNothing) {
+  const std::string map = at("cut.sphc"), ledger = at("cut.ledger"), model = at("cut.model"), walk = at("long");
+  fs::copy(at("walk"), walk, fs::copy_options::recursive);
+  for (const char *list : {"/rgb.txt", "/depth.txt", "/groundtruth.txt"}) repeatLines(walk + list);
+  for (const std::string signal : {"INT", "TERM"}) {
+    const Answer answer =
+        runProgram("sh -c", "'" SPHC_COMMAND " build -r " + walk + " -m " + map + " --ledger " + ledger +
+                                " --save-model " + model + " & child=$!; while kill -0 $child && ! [ -e " + ledger +
+                                " ]; do sleep 0.01; done; kill -" + signal + " $child; wait $child'");
+    EXPECT_EQ(answer.exit_code, kExitFailure) << signal;
+    EXPECT_THAT(answer.err, HasSubstr("interrupted")) << signal;
+    for (const std::string &file : {map, map + ".owner.json", ledger, ledger + "-journal", model})
+      EXPECT_FALSE(fs::exists(file)) << file;
+  }
+}
+
 TEST_F(FilesTest, AFullDiskIsNoSuccess) {
   for (const std::string &command :
        {"info --json " + at("room.sphc"), "info " + at("room.sphc"),
