@@ -72,7 +72,7 @@ void readNotes(const LocalizeOptions &options, LocalizeInput *input, Run *run) {
 
 void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
   if (reader.recording().poses.poses().empty())
-    console.warn("note: --odometry: the recording holds no poses to play");
+    console.warn(std::string("note: --odometry: ") + kNoPoses + " to play");
   if (options.config.mode == SPHC_MODE_SINGLE)
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
@@ -112,6 +112,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
+  run.has_poses = !reader->recording().poses.poses().empty();
   input.maps = openMapFiles(options.maps, trustOf(options.trust));
   for (size_t i = 0; i < options.maps.size(); ++i) run.maps.push_back(mapFacts(input.maps[i], options.maps[i]));
   input.reader = reader;
@@ -206,8 +207,9 @@ int run(const LocalizeOptions &options, const Console &console) {
   noteDamage(*reader, console);
   Run done = localize(options, reader.get(), console);
   if (options.align && !alignTruth(&done))
-    console.warn(
-        "note: --align: fewer than 3 localized frames have a pose in the recording, so no errors are known");
+    console.warn(std::string("note: --align: ") +
+                 (done.has_poses ? "fewer than 3 localized frames have a pose in the recording" : kNoPoses) +
+                 ", so no errors are known");
   const Summary summary = summarize(done);
   const auto told = writeOutputs(options, done, reader.get(), console);  // before words, whose reader may be gone
   console.say(tableText(tableRows(done, summary)));
@@ -228,7 +230,8 @@ int run(const LocalizeOptions &options, const Console &console) {
 const char kLocalizeHelp[] =
     "Gives every frame of a recording to the localizer, together with a map, and tells where the camera was.\n"
     "Frames go through the same C interface as on a device.  With the owner's note the answers come in the\n"
-    "recording's world and are compared with its poses; without it they are in the map's own frame.";
+    "world that the map was made in and are compared with the recording's poses, where it has any; without it\n"
+    "they are in the map's own frame.";
 const char kLocalizeExample[] =
     "Example:\n"
     "  spherecloud localize --recording walk --first 100 --map room.sphc\n"

@@ -84,13 +84,17 @@ const char kNoTruth[] =
     R"(<p class='warn'>The truth was not given, so this report cannot say how exact the answers are.
 Run again with <code>--owner-note</code> on a recording that has poses.</p>)";
 
-const char kNoPoses[] =
-    R"(<p class='warn'>No pose of the recording can be compared, so this report cannot say how exact the answers are.
-It needs a recording with poses at the times of its images.</p>)";
+std::string withoutTruth(const Run &run) {
+  if (run.base == "map") return kNoTruth;
+  return std::string("<p class='warn'>") +
+         (run.has_poses ? "No pose of the recording can be compared" : "The recording holds no poses") +
+         ", so this report cannot say how exact the answers are.\n"
+         "It needs a recording with poses at the times of its images.</p>";
+}
 
 std::string howToRead(const Run &run, const Summary &s) {
   if (s.with_truth) return kHowToRead;
-  return std::string(kHowToRead) + (run.base == "map" ? kNoTruth : kNoPoses);
+  return kHowToRead + withoutTruth(run);
 }
 
 std::string warningOf(const Summary &s) {

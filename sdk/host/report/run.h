@@ -69,8 +69,11 @@ struct MapFacts {
   std::vector<std::array<double, 3>> directions;  // all that the file says of its points; for the picture
 };
 
+constexpr char kNoPoses[] = "the recording holds no poses";
+
 struct Run {
   std::string recording;
+  bool has_poses = true;     // the recording, of whatever time; without, there is no truth
   std::string base = "map";  // "world" or "map": of several maps each its own
   // Of the spheres, in the base: one for each map, or one for all, the origin of each.
   std::vector<std::array<double, 3>> centres_m = {{0, 0, 0}};

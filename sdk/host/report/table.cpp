@@ -33,7 +33,8 @@ void addErrors(const Run &run, const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
     rows->push_back({"error against the truth", "not known",
                      run.base == "map" ? "give --owner-note, and a recording with poses"
-                                       : "no pose of the recording can be compared"});
+                     : run.has_poses   ? "no pose of the recording can be compared"
+                                       : kNoPoses});
     return;
   }
   rows->push_back({"within 5 cm and 5 deg", share(s.good, s.with_truth), ofTotal(s.good, s.with_truth)});

@@ -459,6 +459,16 @@ TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
   EXPECT_EQ(nlohmann::json::parse(single.out)["settings"]["odometry"], "played");
 }
 
+TEST_F(FilesTest, OfARecordingWithoutPosesNoneIsSpokenOf) {
+  fs::copy(at("walk"), at("untold"), fs::copy_options::recursive);
+  fs::remove(at("untold/groundtruth.txt"));
+  const Answer answer = runCommand("localize --align -r " + at("untold") + " -m " + at("room.sphc") +
+                                   " --owner-note " + at("room.sphc.owner.json"));
+  EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("not known   the recording holds no poses"));
+  EXPECT_THAT(answer.err, HasSubstr("--align: the recording holds no poses, so no errors are known"));
+}
+
 TEST_F(FilesTest, PosesOfAnotherClockAreSaid) {
   fs::copy(at("walk"), at("apart"), fs::copy_options::recursive);
   put("apart/groundtruth.txt", "1700000000.5 0 0 0 0 0 0 1\n1700000001.5 0 0 0 0 0 0 1\n");

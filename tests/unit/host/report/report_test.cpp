@@ -89,8 +89,12 @@ TEST_F(ReportTest, WorksWithoutTruth) {
   EXPECT_THAT(page, HasSubstr("The truth was not given"));
   EXPECT_THAT(page, Not(HasSubstr("How far off")));
   EXPECT_THAT(page, HasSubstr("in the map&#39;s own frame"));
-  run_.base = "world";  // with the owner's note, of a recording without poses
+  run_.base = "world";  // with the owner's note
+  EXPECT_THAT(write(), HasSubstr("No pose of the recording can be compared"));
+  run_.has_poses = false;
   page = write();
+  EXPECT_THAT(page, HasSubstr("The recording holds no poses, so this report"));
+  EXPECT_THAT(page, Not(HasSubstr("pose of the recording")));
   EXPECT_THAT(page, HasSubstr("in the world that the map was made in"));
   EXPECT_THAT(page, Not(HasSubstr("Run again with")));
   EXPECT_THAT(page, HasSubstr("It needs a recording with poses"));

@@ -51,6 +51,18 @@ TEST(Table, SaysHowToGetErrorsWhenThereAreNone) {
   EXPECT_THAT(tableText(tableRows(run, summarize(run))), HasSubstr("--owner-note"));
 }
 
+TEST(Table, DoesNotSpeakOfPosesThatAreNotThere) {
+  host::Run run;
+  run.base = "world";
+  run.frames = {goodFrame(1, 0.01, 0.5)};
+  run.frames[0].has_truth = false;
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), HasSubstr("no pose of the recording can be compared"));
+  run.has_poses = false;
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))),
+              testing::AllOf(HasSubstr("not known   the recording holds no poses"),
+                             testing::Not(HasSubstr("pose of the recording"))));
+}
+
 TEST(Table, AlignsItsColumns) {
   const std::string text = tableText({{"a", "1", "x"}, {"long name", "1000", ""}});
   EXPECT_EQ(text, "  a             1   x\n  long name  1000\n");
