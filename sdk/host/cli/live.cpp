@@ -6,6 +6,7 @@
 #include "host/base/counted.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/few_warnings.h"
 #include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
@@ -157,9 +158,14 @@ int run(const LiveOptions &options, const Console &console) {
   checkRigOptions(options.rig);
   const std::vector<MapFile> maps = openMapFiles(options.maps, trustOf(options.trust));
   StatusLine line;
+  FewWarnings unreadable(console, "", "capture", " had such troubles");
   Rig rig(options.rig, [&](const std::string &trouble) {
     line.wipe();
     console.warn(trouble);
+  });
+  rig.hearUnreadable([&](const std::string &why) {
+    line.wipe();
+    unreadable.add(why);
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   sphc_localizer_config config = options.config;

@@ -9,6 +9,7 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/new_recording.h"
 #include "host/cli/common/number_checks.h"
@@ -109,12 +110,12 @@ void noteWhatStays(const Rig &rig, const Console &console) {
 
 // Until the cameras end, a signal comes or the time is over.
 void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
-               StatusLine *line, RecordTally *tally, RecordGuide *guide, const Rig::Tell &tell) {
-  rig->watch([recorder, tally, &options, &tell](const sphc_capture &capture) {
+               StatusLine *line, RecordTally *tally, RecordGuide *guide, const Rig::Tell &unusable) {
+  rig->watch([recorder, tally, &options, &unusable](const sphc_capture &capture) {
     sphc_message message = {};
     const sphc_status status = sphc_recorder_add(recorder, &capture, &message);
     if (status == SPHC_OK) tally->count(capture);
-    if (status == SPHC_E_ARGUMENT) return tell(message.text);  // a time that does not grow
+    if (status == SPHC_E_ARGUMENT) return unusable(message.text);  // a time that does not grow
     const char *cure =
         status == SPHC_E_IMAGE ? "; choose that mode (--width, --height) or give its calibration" : "";
     if (status < 0) throw std::runtime_error(options.out + ": " + message.text + cure);
@@ -145,11 +146,16 @@ int run(const RecordOptions &options, const Console &console) {
   files.writesRecording("--out", options.out);
   files.check();
   StatusLine line;
-  const auto tell = [&](const std::string &trouble) {
+  FewWarnings unusable(console, "", "capture", " had such troubles");
+  const auto tell_unusable = [&](const std::string &why) {
+    line.wipe();
+    unusable.add(why);
+  };
+  Rig rig(options.rig, [&](const std::string &trouble) {
     line.wipe();
     console.warn(trouble);
-  };
-  Rig rig(options.rig, tell);
+  });
+  rig.hearUnreadable(tell_unusable);
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   noteWhatStays(rig, console);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
@@ -161,7 +167,7 @@ int run(const RecordOptions &options, const Console &console) {
   RecordTally tally;
   sphc_recorder_statistics statistics = {};
   try {
-    recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, guide.get(), tell);
+    recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, guide.get(), tell_unusable);
     statistics = statisticsOf(recorder.get());
     sphc_recorder *ended = recorder.release();
     orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });

@@ -24,7 +24,8 @@ int64_t nowNs(clockid_t clock) {
 
 }  // namespace
 
-Rig::Rig(const RigOptions &options, Tell trouble) : options_(options), trouble_(std::move(trouble)) {
+Rig::Rig(const RigOptions &options, Tell trouble)
+    : options_(options), trouble_(std::move(trouble)), unreadable_(trouble_) {
   if (!options.both.empty()) {
     add(options.both, true, true);
   } else {
@@ -139,7 +140,7 @@ bool Rig::acquireFrom(Camera *camera, std::chrono::microseconds timeout) {
   const sphc_status status = source.acquire(source.self, static_cast<uint32_t>(timeout.count()), &capture);
   if (status == SPHC_AGAIN) return false;
   camera->ended = status == SPHC_END;
-  if (status < 0 && status != SPHC_E_DEVICE_LOST) trouble_(camera->spec + ": " + source.message(source.self));
+  if (status < 0 && status != SPHC_E_DEVICE_LOST) unreadable_(camera->spec + ": " + source.message(source.self));
   camera->failures = status < 0 ? camera->failures + 1 : 0;
   if (status == SPHC_E_DEVICE_LOST || (camera->failures > kFailures && !camera->device->waits())) lose(camera);
   if (status != SPHC_OK) return false;

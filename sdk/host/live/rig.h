@@ -46,6 +46,8 @@ class Rig {
 
   // Sees every capture that comes, paired later or not, on the clock of the rig.
   void watch(std::function<void(const sphc_capture &)> watcher) { watcher_ = std::move(watcher); }
+  // Hears in place of `trouble` of each capture that cannot be read: a broken camera has many.
+  void hearUnreadable(Tell unreadable) { unreadable_ = std::move(unreadable); }
 
   std::vector<std::string> descriptions() const;
   std::string troubles() const;
@@ -87,7 +89,7 @@ class Rig {
   Camera &cameraOf(sphc_stream stream);
 
   RigOptions options_;
-  Tell trouble_;
+  Tell trouble_, unreadable_;
   std::function<void(const sphc_capture &)> watcher_;
   std::vector<Camera> cameras_;
   std::vector<uint64_t> pairer_memory_;

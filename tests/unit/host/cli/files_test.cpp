@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,9 @@ namespace sphc::host {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 unsigned modeOf(const std::string &path) {
   struct stat facts = {};
@@ -416,6 +419,18 @@ TEST_F(FilesTest, AValueThatTheLocalizerRefusesIsWrongUse) {
     EXPECT_THAT(answer.err, HasSubstr(option == "--depth-min 7" ? "--depth-max is 6"
                                                                 : option.substr(0, option.find(' ')) + " is "));
   }
+}
+
+TEST_F(FilesTest, LiveDoesNotFillTheTerminalWithUnreadableCaptures) {
+  const std::string walk = at("broken");
+  fs::copy(at("walk"), walk, fs::copy_options::recursive);
+  std::ofstream depth(walk + "/depth.txt", std::ios::app);
+  for (int i = 10; i < 22; ++i) depth << "2." << i << " depth/none_" << i << ".png\n";
+  depth.close();
+  const Answer answer = runCommand("live --json --every --map " + at("room.sphc") + " --device replay:" + walk);
+  EXPECT_EQ(std::count(answer.out.begin(), answer.out.end(), '\n'), 3) << "a line for each pair";
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("none_19.png"), Not(HasSubstr("none_20.png")),
+                                HasSubstr("2 more captures had such troubles")));
 }
 
 // A pipe that nobody writes to, and a device that never ends.

@@ -84,6 +84,10 @@ TEST_F(GuideTest, ARecordingWithoutDepthSaysWhatIsMissing) {
   EXPECT_EQ(answer.exit_code, kExitFailure);
   EXPECT_THAT(answer.err, HasSubstr("Not one depth image came"));
   EXPECT_THAT(answer.err, HasSubstr("spherecloud doctor"));
+  // A broken camera does not fill the terminal.
+  EXPECT_THAT(answer.err, HasSubstr("depth/000009.png"));
+  EXPECT_THAT(answer.err, testing::Not(HasSubstr("depth/000010.png")));
+  EXPECT_THAT(answer.err, HasSubstr("2 more captures had such troubles"));
 }
 
 TEST_F(GuideTest, PeopleGetATableAtTheEnd) {

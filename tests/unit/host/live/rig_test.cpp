@@ -145,6 +145,27 @@ TEST_F(RigTest, SaysWhyALostCameraIsNotBackAndGoesOnOnceItIs) {
                            options_.both + ": busy: another program has it\n" + options_.both + ": is back\n");
 }
 
+TEST_F(RigTest, WhatCannotBeReadIsHeardApartFromWhatTheCameraDoes) {
+  class BrokenDevice : public LostDevice {
+   public:
+    BrokenDevice() {
+      source_.acquire = [](void *, uint32_t, sphc_capture *) -> sphc_status { return SPHC_E_IMAGE; };
+      source_.message = [](const void *) -> const char * { return "an image was cut off"; };
+    }
+  };
+  options_.open = [](const std::string &, const Wish &) { return std::make_unique<BrokenDevice>(); };
+  const auto rig = open();
+  uint32_t unreadable = 0;
+  rig->hearUnreadable([&](const std::string &why) {
+    EXPECT_EQ(why, options_.both + ": an image was cut off");
+    ++unreadable;
+  });
+  CapturePair pair;
+  while (rig->losses() == 0) ASSERT_EQ(rig->next(std::chrono::milliseconds(1), &pair), Rig::Got::kNothing);
+  EXPECT_GT(unreadable, 10u);
+  EXPECT_EQ(troubles_, options_.both + ": an image was cut off; waiting for it to come back\n");
+}
+
 // Two cameras, each with a clock of its own: both come out on the host's.
 TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
   options_.color = options_.depth = options_.both;
