@@ -11,6 +11,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
 #include "host/cli/common/trust_options.h"
+#include "host/cli/live_pose.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/live/interrupt.h"
@@ -46,25 +47,15 @@ struct LiveTally {
   std::array<uint32_t, kHintWords.size()> hints = {};    // the same
 };
 
-std::string poseText(const sphc_localizer_result &result) {
-  if (result.faults) return "FAULT: " + faultNames(result.faults);
-  if (result.outcome != SPHC_OUTCOME_LOCALIZED)
-    return result.hints ? "no pose, " + firstHint(result.hints) : "no pose";
-  const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);
-  char text[96];
-  std::snprintf(text, sizeof text, "%+.2f %+.2f %+.2f m, confidence %.2f", pose.t_m[0], pose.t_m[1], pose.t_m[2],
-                result.confidence);
-  return text;
-}
-
-std::string statusText(const LiveTally &tally, const sphc_localizer_result &result, const Rig &rig, double ms) {
+std::string statusText(const LiveTally &tally, const sphc_localizer_result &result,
+                       const std::vector<std::string> &maps, const Rig &rig, double ms) {
   const sphc_pairer_counts counts = rig.counts();
-  char text[256];
-  std::snprintf(text, sizeof text, "%-12s %s | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
-                stateName(result.state), poseText(result).c_str(), result.inliers, ms, tally.color.hz(),
-                tally.depth.hz(), tally.poses.hz(),
+  char state[16], rates[96];
+  std::snprintf(state, sizeof state, "%-12s ", stateName(result.state));
+  std::snprintf(rates, sizeof rates, " | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
+                result.inliers, ms, tally.color.hz(), tally.depth.hz(), tally.poses.hz(),
                 static_cast<unsigned long long>(counts.color_lost + counts.depth_lost));
-  return text;
+  return state + livePoseText(result, maps) + rates;
 }
 
 nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_result &result, double ms) {
@@ -107,8 +98,8 @@ void checkAmplitude(const LiveOptions &options, const CapturePair &pair) {
                            ": the depth camera gave no amplitudes; leave --amplitude-min out");
 }
 
-void lookAt(const CapturePair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
-            StatusLine *line, LiveTally *tally) {
+void lookAt(const CapturePair &pair, const LiveOptions &options, const Rig &rig, const Console &console,
+            spherecloud::Localizer *localizer, StatusLine *line, LiveTally *tally) {
   sphc_localizer_result result = spherecloud::emptyResult();
   const auto begin = std::chrono::steady_clock::now();
   const spherecloud::Status status = localizer->process(frameOf(pair), &result);
@@ -123,7 +114,7 @@ void lookAt(const CapturePair &pair, const Rig &rig, const Console &console, sph
   countBits(kHintWords, result.hints, &tally->hints);
   tally->poses.count();
   console.giveLine(frameJson(pair, result, ms));
-  line->show(statusText(*tally, result, rig, ms));
+  line->show(statusText(*tally, result, options.maps, rig, ms));
 }
 
 bool isOver(const LiveOptions &options, const LiveTally &tally, std::chrono::steady_clock::time_point begin) {
@@ -191,7 +182,7 @@ int run(const LiveOptions &options, const Console &console) {
       continue;
     }
     checkAmplitude(options, pair);
-    lookAt(pair, rig, console, &localizer, &line, &tally);
+    lookAt(pair, options, rig, console, &localizer, &line, &tally);
     rig.release(pair);
   }
   line.wipe();
