@@ -185,10 +185,24 @@ AuditRules rulesOf(const AuditOptions &options) {
   return rules;
 }
 
+std::string nameOf(const AuditOptions &options) {
+  return options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
+}
+
+// A row of the table is a line.
+void checkName(const AuditOptions &options) {
+  const std::string name = nameOf(options);
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; }))
+    throw UsageError(
+        "--name: the name of the map in the table has no line's end and no other control character; "
+        "give another");
+}
+
+std::string strategyOf(const AuditInput &input) { return input.place ? input.place->strategy : "unknown"; }
+
 // For a table of results.
 std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audit, const AuditInput &input) {
-  const std::string name = options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
-  const std::string strategy = input.place ? input.place->strategy : "unknown";
+  const std::string name = nameOf(options), strategy = strategyOf(input);
   const double eta = input.place ? input.place->eta : 0;
   std::vector<PrivacyRow> rows = realOrFakeRows(audit.real_or_fake, name, strategy, eta);
   for (const AuditFigure &figure : audit.figures) {
@@ -205,10 +219,14 @@ std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audi
 }
 
 // What is there and no table of ours may go: it is empty, or --force was given.
-void writeFigures(const std::string &path, const std::vector<PrivacyRow> &rows) {
+void writeFigures(const AuditOptions &options, const MapAudit &audit, const AuditInput &input) {
+  const std::string &path = options.figures;
   if (std::filesystem::is_regular_file(path) && !holds(kPrivacyHead)(path))
     writeFile(path, std::string(kPrivacyHead) + "\n");
-  updatePrivacyResults(path, rows);
+  const std::vector<PrivacyRow> rows = rowsOf(options, audit, input);
+  // Of an attack that was not run now the table would have the figures of another time.
+  for (const char *attack : {"real_or_fake", "audit"})
+    replacePrivacyResults(path, keyOf({attack, nameOf(options), strategyOf(input), 0, "", "", 0}), rows);
 }
 
 Row rowOf(const AuditFigure &figure) {
@@ -271,13 +289,14 @@ int run(const AuditOptions &options, const Console &console) {
     throw UsageError("--photos tell nothing without --recording; give what the map was made of too");
   if (options.photos.last < options.photos.first)
     throw UsageError("--photos-last lies before --photos-first; swap them");
+  if (!options.figures.empty()) checkName(options);
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
   const AuditInput input = inputOf(options, console);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
-  if (!options.figures.empty()) writeFigures(options.figures, rowsOf(options, audit, input));
+  if (!options.figures.empty()) writeFigures(options, audit, input);
   tell(audit, page, console);
   return exitCodeOf(audit.outcome());
 }

@@ -3,16 +3,27 @@
 #include <cstdio>
 
 namespace sphc::host {
+namespace {
+
+// RFC 4180.
+std::string field(const std::string &text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string keyOf(const PrivacyRow &row) {
+  return field(row.attack) + "," + field(row.map) + "," + field(row.strategy) + ",";
+}
 
 std::string lineOf(const PrivacyRow &row) {
   char eta[32], value[32];
   std::snprintf(eta, sizeof eta, "%.2f", row.eta);
   std::snprintf(value, sizeof value, "%.4g", row.value);
-  // RFC 4180; no name has a quote in it.
-  const bool has_comma = row.variant.find(',') != std::string::npos;
-  const std::string variant = has_comma ? '"' + row.variant + '"' : row.variant;
-  return row.attack + "," + row.map + "," + row.strategy + "," + eta + "," + variant + "," + row.metric + "," +
-         value;
+  return keyOf(row) + eta + "," + field(row.variant) + "," + row.metric + "," + value;
 }
 
 }  // namespace sphc::host

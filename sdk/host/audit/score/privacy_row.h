@@ -11,7 +11,9 @@ struct PrivacyRow {
   double value;
 };
 
-// Without the line's end.
+// What the lines of one attack on one map begin with.
+std::string keyOf(const PrivacyRow &row);
+// Without the line's end; no text of it has one.
 std::string lineOf(const PrivacyRow &row);
 
 }  // namespace sphc::host

@@ -20,9 +20,9 @@ PointModel importRecording(const RecordingOptions &recording, const char *what) 
 
 namespace {
 
-// Of so many frames from one on, the first with images and a pose.
-std::optional<uint32_t> usableFrom(recording::RecordingReader *reader, uint32_t first, uint32_t count) {
-  for (uint32_t i = first; i < std::min(first + count, reader->frameCount()); ++i) {
+// Of a stretch of frames, the first with images and a pose.
+std::optional<uint32_t> usableIn(recording::RecordingReader *reader, uint32_t begin, uint32_t end) {
+  for (uint32_t i = begin; i < end; ++i) {
     std::string unused;
     if (reader->worldFromCamera(i) && reader->tryRead(i, &unused)) return i;
   }
@@ -35,17 +35,17 @@ std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t
                                      const Console &console) {
   const auto reader = openRecording(recording);
   noteDamage(*reader, console);
-  const uint32_t available = reader->frameCount();
-  const uint32_t apart = std::max(1u, available / count);
+  const uint64_t available = reader->frameCount(), stretches = std::min<uint64_t>(count, available);
+  const auto begin = [&](uint64_t k) { return static_cast<uint32_t>(k * available / stretches); };
   std::vector<PointModel> models;
   ProgressBar bar(what);
-  for (uint32_t k = 0; k < count && k < available; ++k) {
-    const std::optional<uint32_t> chosen = usableFrom(reader.get(), k * apart, apart);
+  for (uint32_t k = 0; k < stretches; ++k) {
+    const std::optional<uint32_t> chosen = usableIn(reader.get(), begin(k), begin(k + 1));
     RgbdImportSummary summary;
     if (chosen)
       models.push_back(
           importRgbd({{reader.get(), [&chosen](uint32_t i) { return i == *chosen; }}}, {}, {}, &summary));
-    bar.show(k + 1, count);
+    bar.show(k + 1, static_cast<uint32_t>(stretches));
   }
   if (models.empty())
     throw std::runtime_error(

@@ -292,6 +292,20 @@ TEST_F(FilesTest, AuditReplacesAnotherTableByForceAndAnEmptyOneAnyway) {
     EXPECT_EQ(fileText(table).rfind("attack,map,", 0), 0u) << table;
 }
 
+TEST_F(FilesTest, AnAuditOfAFewAttacksLeavesNoFiguresOfOthersFromBefore) {
+  const std::string table = at("figures.csv"), audit = "audit " + at("room.sphc") + " --truth " +
+                                                       at("spherecloud.ledger") + " --quick --figures " + table +
+                                                       " --name 'a,\"b\"' --only ";
+  runCommand(audit + "real_or_fake");  // whose limit may be broken
+  EXPECT_THAT(fileText(table), HasSubstr("\nreal_or_fake,\"a,\"\"b\"\"\","));
+  ASSERT_EQ(runCommand(audit + "density").exit_code, kExitAuditIncomplete);
+  EXPECT_THAT(fileText(table), AllOf(Not(HasSubstr("real_or_fake")), HasSubstr("\naudit,\"a,\"\"b\"\"\",")));
+  const Answer two_lines =
+      runCommand("audit " + at("room.sphc") + " --only density --figures " + table + " --name 'a\nb'");
+  EXPECT_EQ(two_lines.exit_code, kExitUsage);
+  EXPECT_THAT(two_lines.err, HasSubstr("--name: the name of the map in the table has no line's end"));
+}
+
 TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
   expectKept(at("walk/rgb.txt"), "convert " + at("walk") + " " + at("walk/in.mcap"), kExitUsage, "lies in");
   expectKept(at("room.sphc"), "simulate --frames 1 --out " + at("room.sphc"), kExitFailure, "never replaced");

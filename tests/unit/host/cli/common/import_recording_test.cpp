@@ -45,5 +45,19 @@ TEST(ImportFrames, SaysHowAWalkWithoutPosesGetsThem) {
   EXPECT_EQ(importFrames(walk, 2, "querying", Console()).size(), 2u);
 }
 
+TEST(ImportFrames, TakesThemFromTheWholeRecordingThoughItHasFewMore) {
+  const test::TempFolder folder;
+  RecordingOptions walk;
+  walk.folder = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 7 --rate 2 --out " + walk.folder).exit_code, 0);
+  const std::vector<PointModel> all = importFrames(walk, 7, "querying", Console()),
+                                some = importFrames(walk, 4, "querying", Console());
+  ASSERT_EQ(some.size(), 4u);
+  const size_t taken[] = {0, 1, 3, 5};
+  for (size_t i = 0; i < some.size(); ++i)
+    EXPECT_EQ(some[i].points.at(0).position_m, all[taken[i]].points.at(0).position_m) << i;
+  EXPECT_EQ(importFrames(walk, 100, "querying", Console()).size(), 7u);
+}
+
 }  // namespace
 }  // namespace sphc::host
