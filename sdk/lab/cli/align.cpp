@@ -44,22 +44,20 @@ std::vector<uint16_t> depthOf(const sphc_image &depth) {
   return pixels;
 }
 
-AlignCase readCase(const AlignOptions &options) {
+AlignCase readCase(const AlignOptions &options, const Console &console) {
   const auto reader = openRecording(options.recording);
   const sphc_rig &calibration = reader->calibration();
   AlignCase c;
   c.name = std::to_string(calibration.depth_camera.width) + "x" + std::to_string(calibration.depth_camera.height);
   c.rig = calibration;
-  const uint32_t count = reader->frameCount();
-  for (uint32_t i = 0; i < count; ++i) {
-    const sphc_localizer_frame frame = reader->read(i);
+  forReadableFrames(reader.get(), saidBy(console), [&c](uint32_t, const sphc_localizer_frame &frame) {
     c.frames.push_back({grayOf(frame.color), depthOf(frame.depth)});
-  }
+  });
   return c;
 }
 
 std::vector<AlignCase> casesOf(const AlignOptions &options, const Console &console) {
-  std::vector<AlignCase> cases = {readCase(options)};
+  std::vector<AlignCase> cases = {readCase(options, console)};
   const sphc_camera depth = cases[0].depth();
   if (depth.width == 640 && depth.height == 480)
     cases.push_back(tofCase(cases[0]));

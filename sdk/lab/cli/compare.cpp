@@ -137,6 +137,9 @@ void addInputOptions(CLI::App *app, CompareOptions *options) {
   app->add_option("--eta", options->recording.etas, "Sphere clouds made of the recording [1 0.333]")
       ->check(between(1e-3, 1))
       ->type_name("X");
+  for (const char *name :
+       {"--calibration", "--first", "--last", "--step", "--query-first", "--query-last", "--query-step", "--eta"})
+    app->get_option(name)->needs("--recording");  // correspondences were made of frames that were chosen then
   app->add_option("--correspondences", options->correspondences,
                   "Correspondence files of one place in place of a recording")
       ->type_name("FILE");

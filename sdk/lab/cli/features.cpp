@@ -47,7 +47,7 @@ FeaturesTable measure(const FeaturesCommandOptions &options, size_t which, const
   if (!options.first.empty()) source.first = options.first[which];
   if (!options.last.empty()) source.last = options.last[which];
   source.step = options.step;
-  const GrayRecording recording = readGray(openRecording(source).get());
+  const GrayRecording recording = readGray(openRecording(source).get(), saidBy(console));
   const auto variants = chooseVariants(options, recording, console);
   ProgressBar bar("measuring ");
   FeaturesTable table = {

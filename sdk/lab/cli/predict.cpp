@@ -5,6 +5,7 @@
 #include "host/cli/common/recording_options.h"
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
+#include "lab/cli/words.h"
 #include "lab/predict/table.h"
 
 namespace sphc::host {
@@ -26,8 +27,8 @@ int run(const PredictOptions &options, const Console &console) {
   input.maps = &maps;
   input.centre_in_world_m = {centre.x(), centre.y(), centre.z()};
   for (const double ms : options.ahead_ms) input.ahead_ns.push_back(static_cast<int64_t>(1e6 * ms));
-  std::vector<PredictRow> rows = runPredict(input, false);
-  for (const PredictRow &row : runPredict(input, true)) rows.push_back(row);
+  std::vector<PredictRow> rows = runPredict(input, false, saidBy(console));
+  for (const PredictRow &row : runPredict(input, true, [](const std::string &) {})) rows.push_back(row);
   console.say(predictText(rows));
   console.give(predictJson(rows));
   return kExitDone;

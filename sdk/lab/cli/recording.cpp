@@ -12,6 +12,7 @@
 #include "host/report/run.h"
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
+#include "lab/cli/words.h"
 #include "lab/recording/bench.h"
 
 namespace sphc::host {
@@ -29,15 +30,14 @@ struct DepthFrames {
   std::vector<std::vector<uint16_t>> frames;
 };
 
-DepthFrames readDepth(RecordingReader *reader) {
+DepthFrames readDepth(RecordingReader *reader, const Console &console) {
   DepthFrames depth;
-  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
-    const sphc_localizer_frame frame = reader->read(i);
+  forReadableFrames(reader, saidBy(console), [&depth](uint32_t, const sphc_localizer_frame &frame) {
     const auto *pixels = static_cast<const uint16_t *>(frame.depth.data);
     depth.width = frame.depth.width;
     depth.height = frame.depth.height;
     depth.frames.emplace_back(pixels, pixels + size_t{depth.width} * depth.height);
-  }
+  });
   return depth;
 }
 
@@ -71,7 +71,7 @@ int run(const RecordingCommandOptions &options, const Console &console) {
     chosen.calibration = options.calibrations.empty() ? "" : options.calibrations[i];
     chosen.step = options.step;
     const auto reader = openRecording(chosen);
-    const DepthFrames depth = readDepth(reader.get());
+    const DepthFrames depth = readDepth(reader.get(), console);
     {
       ProgressBar bar("measuring ");
       tables.push_back(runCodecBench(nameOf(chosen.folder), depth.width, depth.height, depth.frames,

@@ -4,17 +4,16 @@
 
 namespace sphc::host {
 
-GrayRecording readGray(recording::RecordingReader *reader) {
+GrayRecording readGray(recording::RecordingReader *reader, const Unreadable &unreadable) {
   GrayRecording recording = {Camera(reader->calibration().color_camera), {}};
-  const uint32_t count = reader->frameCount();
-  for (uint32_t i = 0; i < count; ++i) {
+  forReadableFrames(reader, unreadable, [&](uint32_t i, const sphc_localizer_frame &frame) {
     GrayFrame gray;
-    grayOf(reader->read(i).color, &gray.pixels);
+    grayOf(frame.color, &gray.pixels);
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     gray.has_pose = pose.has_value();
     if (pose) gray.world_from_camera = rigidFromC(*pose);
     recording.frames.push_back(std::move(gray));
-  }
+  });
   return recording;
 }
 

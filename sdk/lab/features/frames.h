@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/recording/recording_reader.h"
+#include "lab/common/readable_frames.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/image_view.h"
@@ -25,7 +26,7 @@ struct GrayRecording {
   }
 };
 
-// All chosen frames.  Throws std::runtime_error with cause and cure when one cannot be read.
-GrayRecording readGray(recording::RecordingReader *reader);
+// The chosen frames; `unreadable` hears of those that are left out.
+GrayRecording readGray(recording::RecordingReader *reader, const Unreadable &unreadable);
 
 }  // namespace sphc::host

@@ -56,18 +56,17 @@ PredictRow rowOf(int64_t ahead_ns, bool odometry, const Errors &errors) {
 
 }  // namespace
 
-std::vector<PredictRow> runPredict(const PredictInput &input, bool odometry) {
+std::vector<PredictRow> runPredict(const PredictInput &input, bool odometry, const Unreadable &unreadable) {
   sphc_localizer_config config = spherecloud::defaultConfig();
   setCameras(input.reader->calibration(), &config);
   spherecloud::Localizer localizer = makeLocalizer(config, *input.maps);
   PlayedOdometry played(input.reader);
   std::vector<Errors> errors(input.ahead_ns.size());
-  for (uint32_t i = 0; i < input.reader->frameCount(); ++i) {
-    sphc_localizer_frame frame = input.reader->read(i);
+  forReadableFrames(input.reader, unreadable, [&](uint32_t i, sphc_localizer_frame frame) {
     if (odometry) frame.prior = played.at(i);
     sphc_localizer_result result = spherecloud::emptyResult();
     localizer.process(frame, &result).orThrow();
-    if (result.outcome != SPHC_OUTCOME_LOCALIZED || result.state != SPHC_STATE_TRACKING) continue;
+    if (result.outcome != SPHC_OUTCOME_LOCALIZED || result.state != SPHC_STATE_TRACKING) return;
     for (size_t at = 0; at < errors.size(); ++at) {
       const int64_t time_ns = result.time_ns + input.ahead_ns[at];
       const std::optional<Rigid> truth = truthAt(input, time_ns);
@@ -75,7 +74,7 @@ std::vector<PredictRow> runPredict(const PredictInput &input, bool odometry) {
       if (truth && localizer.predict(time_ns, &prediction).ok())
         add(prediction, rigidFromC(result.camera_from_map), *truth, &errors[at]);
     }
-  }
+  });
   std::vector<PredictRow> rows;
   for (size_t at = 0; at < errors.size(); ++at) rows.push_back(rowOf(input.ahead_ns[at], odometry, errors[at]));
   return rows;

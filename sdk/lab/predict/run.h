@@ -5,6 +5,7 @@
 
 #include "host/evaluate/map_file.h"
 #include "host/recording/recording_reader.h"
+#include "lab/common/readable_frames.h"
 
 namespace sphc::host {
 
@@ -25,7 +26,8 @@ struct PredictRow {
   double shift_sigmas95 = 0, turn_sigmas95 = 0;  // 95 %
 };
 
-// A row for each time ahead.  The odometry is that of `localize --odometry`.
-std::vector<PredictRow> runPredict(const PredictInput &input, bool odometry);
+// A row for each time ahead.  The odometry is that of `localize --odometry`.  `unreadable` hears of the frames that
+// are left out.
+std::vector<PredictRow> runPredict(const PredictInput &input, bool odometry, const Unreadable &unreadable);
 
 }  // namespace sphc::host

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "host/frames/recording.h"
@@ -69,8 +70,13 @@ void orFail(sphc_status status, const sphc_message &message) {
   if (status != SPHC_OK) throw std::runtime_error(std::string("cannot record: ") + message.text);
 }
 
-// Processor seconds a frame, without reading it.
-double record(RecordingReader *reader, const std::string &file, bool with_color) {
+struct Recorded {
+  uint32_t frames = 0;
+  double seconds = 0;  // of the processor, a frame, without reading it
+};
+
+// Those that can be read.
+Recorded record(RecordingReader *reader, const std::string &file, bool with_color) {
   const sphc_rig calibration = reader->calibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
@@ -78,20 +84,23 @@ double record(RecordingReader *reader, const std::string &file, bool with_color)
   sphc_message message = {};
   sphc_recorder *recorder = nullptr;
   orFail(sphc_recorder_open(file.c_str(), &calibration, &config, &recorder, &message), message);
-  const uint32_t count = reader->frameCount();
+  Recorded recorded;
   double reading_s = 0;
   const double start = processCpuSeconds();
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     const double before = threadCpuSeconds();
-    const sphc_localizer_frame frame = reader->read(i);
+    const std::optional<sphc_localizer_frame> frame = reader->tryRead(i);
     reading_s += threadCpuSeconds() - before;
-    const sphc_capture color = captureOf(frame, SPHC_STREAM_COLOR, i);
-    const sphc_capture depth = captureOf(frame, SPHC_STREAM_DEPTH, i);
+    if (!frame) continue;
+    ++recorded.frames;
+    const sphc_capture color = captureOf(*frame, SPHC_STREAM_COLOR, i);
+    const sphc_capture depth = captureOf(*frame, SPHC_STREAM_DEPTH, i);
     if (with_color) orFail(sphc_recorder_add(recorder, &color, &message), message);
     orFail(sphc_recorder_add(recorder, &depth, &message), message);
   }
   orFail(sphc_recorder_close(&recorder, &message), message);
-  return (processCpuSeconds() - start - reading_s) / count;
+  recorded.seconds = (processCpuSeconds() - start - reading_s) / recorded.frames;
+  return recorded;
 }
 
 }  // namespace
@@ -121,13 +130,12 @@ CodecTable runCodecBench(const std::string &name, uint32_t width, uint32_t heigh
 RecorderCost measureRecorder(recording::RecordingReader *reader, const std::string &folder) {
   constexpr double kRateHz = 30;
   const std::string file = folder + "/recorder_cost.mcap";
-  const double depth_s = record(reader, file, false);
+  const double depth_s = record(reader, file, false).seconds;
   std::filesystem::remove(file);
-  const double both_s = record(reader, file, true);
+  const Recorded both = record(reader, file, true);
   const auto file_bytes = static_cast<double>(std::filesystem::file_size(file));
   std::filesystem::remove(file);
-  const double count = reader->frameCount();
-  return {100 * kRateHz * depth_s, 100 * kRateHz * both_s, kRateHz * file_bytes / count};
+  return {100 * kRateHz * depth_s, 100 * kRateHz * both.seconds, kRateHz * file_bytes / both.frames};
 }
 
 std::string codecText(const CodecTable &table) {

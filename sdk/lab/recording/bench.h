@@ -34,7 +34,8 @@ struct RecorderCost {
   double both_cpu_percent = 0;   // likewise, colour (raw) and depth
   double bytes_per_second = 0;   // of the file, both at 30 Hz
 };
-// Records the recording's frames into `folder` and removes the files again; processor time of all threads.
+// Records the recording's frames that can be read, one at least, into `folder` and removes the files again;
+// processor time of all threads.
 RecorderCost measureRecorder(recording::RecordingReader *reader, const std::string &folder);
 
 std::string codecText(const CodecTable &table);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/common/exit_code.h"
@@ -43,6 +44,8 @@ TEST_P(LabUsageTest, IsExitCodeTwoAndPointsToHelp) {
 INSTANTIATE_TEST_SUITE_P(EachMistake, LabUsageTest,
                          testing::Values("", "conquer", "compare", "compare --recording r --correspondences f",
                                          "compare --correspondences f --out o",
+                                         "compare --correspondences f --query-step 5",
+                                         "compare --correspondences f --eta 0.5",
                                          "compare --correspondences f --attack --results l", "pose",
                                          "pose f --depth radar", "pose f --repeat 0", "frame --recording r",
                                          "map --recording r --out o", "map --recording r --out o --points 0"));
@@ -120,6 +123,34 @@ TEST(Lab, ComparesPredictionsWithTheWalk) {
   const auto first = nlohmann::json::parse(none.out)[0];
   EXPECT_EQ(first["predictions"], 0);
   EXPECT_TRUE(first["error_m"].is_null()) << "nothing was measured";
+}
+
+// As localize does: a long measurement is not lost by one bad file.
+TEST(Lab, LeavesOutBadImagesAndNamesThem) {
+  const test::TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 5 --rate 30 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runLab("map -r " + walk + " --points 500 --out " + (folder / "maps")).exit_code, kExitDone);
+  std::ofstream(walk + "/rgb/000002.png") << "no image";
+  const std::string commands[] = {"predict -r " + walk + " --map " + (folder / "maps/map_500.sphc"),
+                                  "align --no-peers --repeat 1 -r " + walk,
+                                  "features --no-peers --repeat 1 -r " + walk,
+                                  "recording --repeat 1 -r " + walk + " --folder " + folder.path().string()};
+  for (const std::string &command : commands) {
+    const Answer answer = runLab(command + " --json");
+    EXPECT_EQ(answer.exit_code, kExitDone) << command << answer.err;
+    EXPECT_EQ(answer.err.find("000002.png"), answer.err.rfind("000002.png")) << command;
+    EXPECT_THAT(answer.err, HasSubstr("note: ")) << command;
+    EXPECT_THAT(answer.err, HasSubstr("000002.png")) << command;
+  }
+  EXPECT_THAT(runLab(commands[2]).out, HasSubstr("4 frames"));
+  for (const auto &image : std::filesystem::directory_iterator(walk + "/rgb"))
+    std::filesystem::resize_file(image.path(), 0);
+  for (const std::string &command : commands) {
+    const Answer none = runLab(command);
+    EXPECT_EQ(none.exit_code, kExitFailure) << command;
+    EXPECT_THAT(none.err, HasSubstr("not one frame could be read; check the recording")) << command;
+  }
 }
 
 TEST(Lab, RefusesARecordingWithoutPosesWhereTheyTellRightFromWrong) {
