@@ -49,11 +49,24 @@ std::string whyFailed(const FrameRecord &frame) {
   return std::string(outcomeName(frame.outcome)) + " (" + counts + ")";
 }
 
+// The map of the others, as it would be released.  Whoever hears that there are too few points must know in which.
+NewRelease releaseWithout(const Block &block, const PointModel &others, double eta) {
+  ReleaseRequest request;
+  request.key = kKey;
+  request.eta = eta;
+  try {
+    return makeRelease(others, request);
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error("the map without frames " + std::to_string(block.first_sequence) + " to " +
+                             std::to_string(block.last_sequence) + ", a fold that is held out: " + error.what() +
+                             ", or give more --folds, so that each holds out less");
+  }
+}
+
 // One block against the map of the others, eta by eta.
 class Trial {
  public:
-  Trial(const AdviceOptions &options, const PointModel &model, RecordingReader *reader, const Block &held_out)
-      : model_(model) {
+  Trial(const AdviceOptions &options, RecordingReader *reader, const Block &held_out) {
     input_.reader = reader;
     input_.takes_part = [held_out](uint32_t index) { return held_out.holds(index); };
     input_.config = spherecloud::defaultConfig();
@@ -64,11 +77,7 @@ class Trial {
   }
 
   // Those that cannot be read are not among them; the import of all frames has told of these.
-  std::vector<FrameRecord> frames(double eta) {
-    ReleaseRequest request;
-    request.key = kKey;
-    request.eta = eta;
-    const NewRelease made = makeRelease(model_, request);
+  std::vector<FrameRecord> frames(const NewRelease &made) {
     input_.maps.clear();
     input_.maps.push_back(openMapBytes(made.file));
     const Vector3 &centre_m = made.place.centre_m;
@@ -80,7 +89,6 @@ class Trial {
   }
 
  private:
-  const PointModel &model_;
   LocalizeInput input_;
 };
 
@@ -140,9 +148,9 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
     const RgbdSource others = {reader, [&block](uint32_t index) { return !block.holds(index); }};
     RgbdImportSummary unused;
     const PointModel model = importRgbd({others}, options.import, nullptr, &unused);
-    Trial trial(options, model, reader, block);
+    Trial trial(options, reader, block);
     for (size_t i = 0; i < options.etas.size(); ++i) {
-      const std::vector<FrameRecord> frames = trial.frames(options.etas[i]);
+      const std::vector<FrameRecord> frames = trial.frames(releaseWithout(block, model, options.etas[i]));
       count(frames, &advice.recalls[i], &errors_m[i]);
       if (options.etas[i] == options.judged_eta) addFailures(frames, &advice.failures);
     }

@@ -12,6 +12,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
+#include "host/cli/field_warnings.h"
 #include "host/report/coverage_picture.h"
 #include "host/report/picture_file.h"
 #include "host/report/statistics.h"
@@ -106,6 +107,7 @@ int run(const AdviseOptions &options, const Console &console) {
   if (!options.picture.empty()) checkPictureName(options.picture);
   const auto reader = openRecording(options.advice.recording);
   noteDamage(*reader, console);
+  warnOfField(reader->calibration(), console);  // where nothing is seen, no points are
   ProgressBar bar("holding out");
   std::vector<std::string> contradictions;
   const Advice advice = advise(

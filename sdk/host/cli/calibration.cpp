@@ -14,6 +14,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/number_checks.h"
+#include "host/cli/field_warnings.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/file.h"
 #include "host/report/table.h"
@@ -107,9 +108,7 @@ void show(const ReadCalibration &read, const Console &console) {
                          {"baseline", fixed(1000 * baselineM(c.color_from_depth), 2) + " mm",
                           "turned by " + fixed(angleDeg(c.color_from_depth), 2) + " deg"},
                          {"depth unit", fixed(1000 * c.depth_unit_m, 3) + " mm", ""}}));
-  for (const auto &[name, camera] : {std::pair("colour", c.color_camera), std::pair("depth", c.depth_camera)})
-    if (const std::string doubt = doubtOfField(camera); !doubt.empty())
-      console.warn(std::string("Warning: the ") + name + " camera has " + doubt);
+  warnOfField(c, console);
 }
 
 nlohmann::ordered_json cameraJson(const sphc_camera &camera) {

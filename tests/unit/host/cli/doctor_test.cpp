@@ -95,6 +95,21 @@ TEST_F(DoctorTest, PixelsWithoutARayAreNamed) {
   EXPECT_THAT(doctor(at("walk")).out, Not(HasSubstr("no ray")));
 }
 
+TEST_F(DoctorTest, AdviseNamesTheFoldWithTooFewPointsAndTheCameraThatSeesNothing) {
+  const std::string walk = copyOfWalk("blind"), advise = "advise --folds 2 -r ";
+  auto calibration = nlohmann::json::parse(fileText(walk + "/calibration.json"));
+  calibration["color_camera"]["params"][4] = -2000.0;  // turns back around the centre
+  std::ofstream(walk + "/calibration.json") << calibration.dump();
+  const Answer blind = runCommand(advise + walk);
+  EXPECT_EQ(blind.exit_code, kExitFailure);
+  EXPECT_THAT(blind.err,
+              AllOf(HasSubstr("Warning: the colour camera has no ray at "),
+                    HasSubstr("where the distortion turns back"), HasSubstr("check focal lengths and distortion"),
+                    HasSubstr("the map without frames 0 to 5, a fold that is held out: there are "),
+                    HasSubstr("too few for a map"), HasSubstr("give more --folds")));
+  EXPECT_THAT(runCommand(advise + at("walk")).err, Not(HasSubstr("no ray")));
+}
+
 TEST_F(DoctorTest, FewPosesAreTooFewToCheckAndAreNamed) {
   const std::string walk = copyOfWalk("few");
   std::istringstream lines(fileText(walk + "/groundtruth.txt"));
