@@ -50,15 +50,16 @@ std::string whyFailed(const FrameRecord &frame) {
 }
 
 // The map of the others, as it would be released.  Whoever hears that there are too few points must know in which.
-NewRelease releaseWithout(const Block &block, const PointModel &others, double eta) {
+NewRelease releaseWithout(const Block &block, const RecordingReader &reader, const PointModel &others, double eta) {
   ReleaseRequest request;
   request.key = kKey;
   request.eta = eta;
   try {
     return makeRelease(others, request);
   } catch (const std::runtime_error &error) {
-    throw std::runtime_error("the map without frames " + std::to_string(block.first_sequence) + " to " +
-                             std::to_string(block.last_sequence) + ", a fold that is held out: " + error.what() +
+    const auto number = [&](uint32_t index) { return std::to_string(reader.colorOf(index).sequence); };
+    throw std::runtime_error("the map without frames " + number(block.first) + " to " + number(block.last) +
+                             ", a fold that is held out: " + error.what() +
                              ", or give more --folds, so that each holds out less");
   }
 }
@@ -150,7 +151,7 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
     const PointModel model = importRgbd({others}, options.import, nullptr, &unused);
     Trial trial(options, reader, block);
     for (size_t i = 0; i < options.etas.size(); ++i) {
-      const std::vector<FrameRecord> frames = trial.frames(releaseWithout(block, model, options.etas[i]));
+      const std::vector<FrameRecord> frames = trial.frames(releaseWithout(block, *reader, model, options.etas[i]));
       count(frames, &advice.recalls[i], &errors_m[i]);
       if (options.etas[i] == options.judged_eta) addFailures(frames, &advice.failures);
     }
