@@ -191,7 +191,7 @@ void paintSpine(Canvas &canvas, Rng &rng) {
   canvas.rectangle(w - 0.0015f, 0, w, h, cover * 0.4f, 0.7f);
 }
 
-// The back of a lever-arch file: marbled paper, a label and a hole for the finger.
+// The back of a binder: marbled paper, a label and a hole for the finger.
 void paintBinder(Canvas &canvas, Rng &rng) {
   const float w = canvas.width(), h = canvas.height();
   const auto seed = static_cast<uint32_t>(rng.next());
