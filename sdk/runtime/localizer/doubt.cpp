@@ -68,16 +68,21 @@ bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior
          off[1] * off[1] > kBiasSigmas * kBiasSigmas * prior.covariance(1, 1);
 }
 
-bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline) {
-  const FocalScale scale =
-      focalScaleOf(found.matched.ofThisFrame(), found.estimate, depth, kDoubtfulFocalSigmas, deadline);
-  return scale.isBeyond(kFocalSigmas) && absOf(scale.off) > kLeastFocalOff;
+FocalLength compareFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline) {
+  const auto isOff = [&](FocalDerivatives derivatives) {
+    const FocalScale scale = focalScaleOf(found.matched.ofThisFrame(), found.estimate, depth, derivatives,
+                                          kDoubtfulFocalSigmas, deadline);
+    return scale.isBeyond(kFocalSigmas) && absOf(scale.off) > kLeastFocalOff;
+  };
+  if (isOff(FocalDerivatives::kAtFoot)) return FocalLength::kDisagrees;
+  return isOff(FocalDerivatives::kAtPoint) ? FocalLength::kDoubtful : FocalLength::kAgrees;
 }
 
 double doubted(double confidence, const Hypothesis &found, Faults faults, bool edges_are_doubtful) {
   if (faults & (kDepthScale | kDepthBias)) return std::min(confidence, kMostConfidenceOfFaults);
   const bool edges_count = edges_are_doubtful && found.estimate.inliers < kInliersBeyondDoubtfulEdges;
-  if (edges_count || (faults & kFocalDisagrees)) return std::min(confidence, kMostConfidenceOfDoubt);
+  if (edges_count || found.has_doubtful_focal || (faults & kFocalDisagrees))
+    return std::min(confidence, kMostConfidenceOfDoubt);
   return found.has_near_rival ? std::min(confidence, kMostConfidenceOfNearRival) : confidence;
 }
 

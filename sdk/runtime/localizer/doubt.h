@@ -18,9 +18,11 @@ Vertical compareVertical(const Known &known, const Hypothesis &found, PoseQuery 
 // Has more been learnt of the depth sensor than a sound one could have?
 bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior);
 
-// Do the matches of a pose agree with another focal length of the colour camera?  `depth` is what was known of the
-// sensor before the frame.
-bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline);
+// Do the matches of a pose agree with another focal length of the colour camera?  Doubtful where they scatter as
+// if, on a plane that tells of none: more of such poses are wrong.  `depth` is what was known of the sensor before
+// the frame.
+enum class FocalLength : uint8_t { kAgrees, kDoubtful, kDisagrees };
+FocalLength compareFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline);
 
 // The confidence that the pose's rivals, these faults and, of edges, a doubt too small for a fault leave it.
 double doubted(double confidence, const Hypothesis &found, Faults faults, bool edges_are_doubtful);

@@ -47,6 +47,7 @@ struct Hypothesis {
   bool is_ambiguous = false;  // uncertain since another pose fits nearly as well, or for odometry
   // Another pose fits well, but not nearly as well; or there was no time to look, or it was so a moment ago.
   bool has_near_rival = false;
+  bool has_doubtful_focal = false;  // its matches scatter as if of another focal length
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }

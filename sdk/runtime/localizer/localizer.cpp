@@ -242,9 +242,11 @@ void Localizer::checkVertical(const Known &known, const Deadline &deadline, Faul
 }
 
 // A frame may lack this step for its deadline.
-void Localizer::checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const {
+void Localizer::checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) {
   if (deadline.passed()) work->cuts |= kCutVerification;
-  if (isOfOtherFocalLength(best(), calibrator_.current(), deadline)) *faults |= kFocalDisagrees;
+  const FocalLength focal = compareFocalLength(best(), calibrator_.current(), deadline);
+  if (focal == FocalLength::kDisagrees) *faults |= kFocalDisagrees;
+  best().has_doubtful_focal = focal == FocalLength::kDoubtful;
 }
 
 // With what earlier frames said of odometry, of the points and of the camera.  Of every frame: what goes on from

@@ -77,7 +77,7 @@ class Localizer {
   void answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work);
   void findPose(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
-  void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
+  void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work);
   void compareWithTrack(const FrameInput &frame, Faults *faults);
   bool wouldMakeTrackSure(const Known &known, Faults faults) const;
   bool isOfAmbiguousTime(const Known &known) const;

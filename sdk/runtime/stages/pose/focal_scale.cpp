@@ -22,6 +22,7 @@ constexpr double kFocalScales2[] = {32, 16, 16, kFinalScale2, kFinalScale2, kFin
 struct FocalState {
   PoseState others;
   double off = 0;
+  FocalDerivatives derivatives = FocalDerivatives::kAtFoot;
 };
 
 // Of the unknowns in the order of refinement: turn, shift, bias; and the scale apart.
@@ -55,10 +56,10 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Foc
   const Residual r = residualOf(c, at.others.pose);
   if (!r.in_front || !(r.squared < kFocalGate * scale2)) return false;
 
-  // Taken at the foot, whose error does not go with the residual's: else noise tells a scale where nothing does.
+  const Vector3 &seen_m = at.derivatives == FocalDerivatives::kAtFoot ? r.foot_m : c.lifted.point_m;
   const Matrix3 across = acrossRay(c.lifted, r);
-  const Vector3 longer_by_bias = across * r.foot_m / (longer * z);
-  const Vector3 scaled = across * Vector3(r.foot_m.x(), r.foot_m.y(), 0) / (1 + at.off);
+  const Vector3 longer_by_bias = across * seen_m / (longer * z);
+  const Vector3 scaled = across * Vector3(seen_m.x(), seen_m.y(), 0) / (1 + at.off);
   row->jacobian << across * crossMatrix(r.foot_m), -across, longer_by_bias, beyond_m * longer_by_bias,
       is_scaled ? scaled : Vector3(Vector3::Zero());
   row->whitened = r.whitened;
@@ -125,9 +126,10 @@ bool step(const FocalEquations &equations, FocalState *state, double *informatio
 }  // namespace
 
 FocalScale focalScaleOf(Span<const Correspondence> correspondences, const Estimate &estimate,
-                        const DepthCalibration &depth, double doubtful_sigmas, const Deadline &deadline) {
+                        const DepthCalibration &depth, FocalDerivatives derivatives, double doubtful_sigmas,
+                        const Deadline &deadline) {
   Watch watch(deadline, kFocalGrain);
-  FocalState state = {{estimate.camera_from_map, estimate.depth.mean - depth.mean}, 0};
+  FocalState state = {{estimate.camera_from_map, estimate.depth.mean - depth.mean}, 0, derivatives};
   const double scatter = std::max(1.0, estimate.unit_variance);
   FocalScale found;
   const auto follow = [&](double scale2) {

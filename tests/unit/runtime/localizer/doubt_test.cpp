@@ -119,6 +119,9 @@ TEST(Doubt, LowersTheConfidenceAndNeverRaisesIt) {
   few.estimate.inliers = 30;
   many.estimate.inliers = rivalled.estimate.inliers = kInliersBeyondDoubtfulEdges;
   rivalled.has_near_rival = true;
+  Hypothesis scattered = many;
+  scattered.has_doubtful_focal = true;
+  EXPECT_EQ(doubted(0.99, scattered, 0, false), kMostConfidenceOfDoubt);
   EXPECT_EQ(doubted(0.99, few, 0, false), 0.99);
   EXPECT_EQ(doubted(0.99, few, kDepthConstant, false), 0.99);  // which takes the pose away
   EXPECT_EQ(doubted(0.99, many, kDepthScale, false), kMostConfidenceOfFaults);

@@ -37,9 +37,10 @@ Seen see(double stated_over_true, uint64_t seed = 1, double wall_m = 0) {
   return seen;
 }
 
-FocalScale scaleOf(const Seen &seen, const Deadline &deadline = {}) {
+FocalScale scaleOf(const Seen &seen, const Deadline &deadline = {},
+                   FocalDerivatives derivatives = FocalDerivatives::kAtFoot) {
   return focalScaleOf({seen.world.correspondences.data(), seen.world.correspondences.size()}, seen.estimate,
-                      seen.depth, kDoubtful, deadline);
+                      seen.depth, derivatives, kDoubtful, deadline);
 }
 
 TEST(FocalScale, IsThatByWhichMatchesWereLifted) {
@@ -68,9 +69,14 @@ TEST(FocalScale, KnowsItsError) {
 // Of a wall that is seen straight on no focal length shows: the camera may stand nearer, or further off.
 TEST(FocalScale, IsNotReadOffTheNoiseOfAWall) {
   constexpr uint64_t kWorlds = 30;
-  uint32_t doubtful = 0;
-  for (uint64_t seed = 1; seed <= kWorlds; ++seed) doubtful += scaleOf(see(1, seed, 2.5)).isBeyond(kDoubtful);
+  uint32_t doubtful = 0, scattered = 0;
+  for (uint64_t seed = 1; seed <= kWorlds; ++seed) {
+    const Seen wall = see(1, seed, 2.5);
+    doubtful += scaleOf(wall).isBeyond(kDoubtful);
+    scattered += scaleOf(wall, {}, FocalDerivatives::kAtPoint).isBeyond(kDoubtful);
+  }
   EXPECT_LT(doubtful, kWorlds / 3);
+  EXPECT_GT(scattered, kWorlds / 2);
 }
 
 // A further camera has a focal length of its own.
