@@ -108,8 +108,8 @@ TEST(Motion, BetweenTwoPosesTheirErrorsMeanOut) {
 
 // Turn and shift of a pose go together, and the two rates are known as well as their steps were.
 TEST(Motion, BetweenTwoPosesACovarianceIsLeft) {
-  Matrix6 covariance = diagonalOf(0.002, 0.004);
-  covariance(1, 3) = covariance(3, 1) = 0.99 * 0.002 * 0.004;
+  Matrix6 covariance = diagonalOf(0.0005, 0.01);
+  covariance(1, 3) = covariance(3, 1) = 0.99 * 0.0005 * 0.01;
   for (const int64_t frame_ns : {kMotionFrame / 3, kMotionFrame}) {
     Trail trail;
     Motion motion = steadyMotion();
