@@ -1,5 +1,4 @@
 """What C found in the golden session is found in every way that Python can ask."""
-import dataclasses
 import math
 import signal
 import threading
@@ -105,9 +104,7 @@ class Session(unittest.TestCase):
         learnt = [self.localizer.process(session.frame(row)) for row in session.ROWS][-1].depth
         other = session.localizer({session.MAP_ID: self.map})
         other.set_depth_bias(learnt)
-        told = other.process(self.first()).depth
-        self.assertAlmostEqual(told.correlation, learnt.correlation, 15)  # of a covariance, which rounds
-        self.assertEqual(dataclasses.replace(told, correlation=learnt.correlation), learnt)
+        self.assertEqual(other.process(self.first()).depth, learnt)
 
     def test_parameters(self):
         limits = sphc.parameter_range(sphc.Parameter.MIN_INLIERS)

@@ -102,7 +102,7 @@ DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth) {
   DepthCalibration own;
   own.mid_m = depth.mid_m;
   own.mean = Vector2(depth.offset_m, depth.slope);
-  const double shared = depth.correlation * depth.offset_sigma_m * depth.slope_sigma;
+  const double shared = depth.correlation * (depth.offset_sigma_m * depth.slope_sigma);  // as depthBiasFrom divides
   own.covariance << depth.offset_sigma_m * depth.offset_sigma_m, shared, shared,
       depth.slope_sigma * depth.slope_sigma;
   own.noise_scale = depth.noise_scale;
