@@ -20,20 +20,26 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
 
-// Weighted mean of the observations that lie within reach of `around`.  Returns these.
-std::vector<const Observation *> fuse(const std::vector<Observation> &observations, const Vector3 &around,
-                                      double reach2, Vector3 *mean, Matrix3 *information) {
+struct Fused {
+  size_t count = 0;
+  const Observation *last = nullptr;
+};
+
+// Weighted mean of the observations that lie within reach of `around`.  Returns which took part.
+Fused fuse(const std::vector<Observation> &observations, const Vector3 &around, double reach2, Vector3 *mean,
+           Matrix3 *information) {
   Vector3 sum = Vector3::Zero();
   Matrix3 total = Matrix3::Zero();
-  std::vector<const Observation *> used;
+  Fused used;
   for (const Observation &o : observations) {
     const Vector3 off = o.position_m - around;
     if (off.dot(o.information * off) > reach2) continue;
     total += o.information;
     sum += o.information * o.position_m;
-    used.push_back(&o);
+    ++used.count;
+    used.last = &o;
   }
-  if (!used.empty()) {
+  if (used.count > 0) {
     *mean = total.inverse() * sum;
     *information = total;
   }
@@ -134,12 +140,12 @@ std::vector<TrackedPoint> PointTracks::points() const {
     ModelPoint &point = tracked.point;
     Matrix3 information;
     point.position_m = track.position_m;
-    const auto agreeing = fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
-    if (agreeing.size() < options_.min_observations) continue;
-    if (agreeing.size() == 1 && !isTrustworthy(*agreeing.front())) continue;
+    const Fused agreeing = fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
+    if (agreeing.count < options_.min_observations) continue;
+    if (agreeing.count == 1 && !isTrustworthy(*agreeing.last)) continue;
     point.descriptor = representative(track.observations);
     point.sigma_m = std::sqrt(information.inverse().trace() / 3);
-    point.observations = static_cast<uint32_t>(agreeing.size());
+    point.observations = static_cast<uint32_t>(agreeing.count);
     for (const Observation &o : track.observations) {
       tracked.cameras_m.push_back(o.camera_m);
       tracked.spots.push_back(o.spot);
