@@ -84,11 +84,10 @@ PointModel importColmap(const ColmapImportOptions &options, const Progress &prog
   for (const auto &[id, seen] : descriptors) {
     const ColmapPoint &point = model.points.at(id);
     ModelPoint kept;
-    kept.sigma_m = sigmaOf(model, point, summary->metres_per_unit);
     kept.observations = imagesThatSaw(point);
-    if (kept.observations < options.min_observations ||
-        !hasPlace(model, point, summary->metres_per_unit, kept.sigma_m))
-      continue;
+    if (kept.observations < options.min_observations) continue;
+    kept.sigma_m = sigmaOf(model, point, summary->metres_per_unit);
+    if (!hasPlace(model, point, summary->metres_per_unit, kept.sigma_m)) continue;
     kept.position_m = summary->metres_per_unit * (summary->world_from_model_axes * point.position);
     kept.descriptor = representative(seen);
     points.points.push_back(kept);
