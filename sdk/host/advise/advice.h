@@ -13,7 +13,6 @@
 namespace sphc::host {
 
 struct AdviceOptions {
-  RecordingOptions recording;
   RgbdImportOptions import;
   uint32_t folds = 5;  // blocks of neighbouring frames, each held out once
   std::vector<double> etas = {0.25, 0.33, 0.5, 1};
@@ -41,8 +40,8 @@ struct Advice {
   std::vector<Failure> failures;
 };
 
-// `reader`: of options.recording.  `mapped` is told at once how all of it was mapped, before frames are held out.
-// Throws UsageError, or std::runtime_error with cause and cure.
+// `mapped` is told at once how all of it was mapped, before frames are held out.
+// Throws std::runtime_error with cause and cure.
 Advice advise(RecordingReader *reader, const AdviceOptions &options,
               const std::function<void(const RgbdImportSummary &all)> &mapped,
               const std::function<void(uint32_t done, uint32_t total)> &progress);

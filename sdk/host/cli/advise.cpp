@@ -24,6 +24,7 @@ namespace {
 constexpr size_t kMostFailuresTold = 12;
 
 struct AdviseOptions {
+  RecordingOptions recording;
   AdviceOptions advice;
   std::string picture;
   bool force = false;
@@ -101,11 +102,11 @@ void drawAdvice(const std::string &path, const Advice &advice) {
 
 int run(const AdviseOptions &options, const Console &console) {
   FileUse files(options.force);
-  files.reads(options.advice.recording);
+  files.reads(options.recording);
   files.writes("--picture", options.picture, holds(kPictureMark));
   files.check();
   if (!options.picture.empty()) checkPictureName(options.picture);
-  const auto reader = openRecording(options.advice.recording);
+  const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
   warnOfField(reader->calibration(), console);  // where nothing is seen, no points are
   ProgressBar bar("holding out");
@@ -144,7 +145,7 @@ Command adviseCommand(CLI::App *root) {
   CLI::App *app = root->add_subcommand("advise");
   app->description("Look at a recording before its map is released.\n\n" + std::string(kAdviseHelp));
   app->footer(kAdviseExample);
-  addRecordingOptions(app, &options->advice.recording);
+  addRecordingOptions(app, &options->recording);
   app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
       ->capture_default_str()
       ->transform(wholeFrom(2, 100));
