@@ -134,8 +134,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   localizeFrames(
       input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
       [&warnings](const std::string &why) { warnings.add(why); }, &run);
-  if (run.frames.empty())
-    throw std::runtime_error("not one frame could be read; check the recording and its calibration");
+  if (run.frames.empty()) refuseUnreadable();
   return run;
 }
 

@@ -49,6 +49,10 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
                            ": check --first, --last, --step, and that depth images are there");
 }
 
+void refuseUnreadable() {
+  throw std::runtime_error("not one frame could be read; check the recording and its calibration");
+}
+
 std::string describeSelection(const RecordingOptions &options) {
   const bool all = options.first == 0 && options.last == UINT32_MAX;
   if (options.first == options.last) return "frame " + std::to_string(options.first);

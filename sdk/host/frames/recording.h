@@ -25,6 +25,8 @@ constexpr char kIsOfOtherTimes[] =
 void checkSelection(const RecordingOptions &options);
 // Throws UsageError, or std::runtime_error with cause and cure, also when the selection holds no frame.
 std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options);
+// Throws the std::runtime_error of a command that found not one frame it could read.
+[[noreturn]] void refuseUnreadable();
 // "frames 100 to 199, every 3rd".
 std::string describeSelection(const RecordingOptions &options);
 

@@ -2,10 +2,9 @@
 #pragma once
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
-#include "host/recording/recording_reader.h"
+#include "host/frames/recording.h"
 
 namespace sphc::host {
 
@@ -22,7 +21,7 @@ inline void forReadableFrames(recording::RecordingReader *reader, const Unreadab
     frame ? use(i, *frame) : unreadable(why);
     any |= frame.has_value();
   }
-  if (!any) throw std::runtime_error("not one frame could be read; check the recording and its calibration");
+  if (!any) host::refuseUnreadable();
 }
 
 }  // namespace sphc::host
