@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
@@ -143,40 +145,43 @@ TEST_F(Replay, KeepsTheRecordedPaceInRealTime) {
   }
 }
 
+// A recording of two colour images, played in real time, whose first frame was taken.
+class LateImage {
+ public:
+  LateImage(const std::string &first_s, const std::string &second_s) {
+    writeTinyRecording(folder_.path().string(), 2);
+    folder_.write("rgb.txt", first_s + " rgb/000000.png\n" + second_s + " rgb/000001.png\n");
+    folder_.write("depth.txt", first_s + " depth/000000.png\n");
+    sphc_replay_config config = replayConfig();
+    config.mode = SPHC_REPLAY_REAL_TIME;
+    replay_.emplace(folder_.path().string(), nullptr, &config);
+    EXPECT_EQ(sphc_replay_source(replay_->get(), &source_), SPHC_OK);
+    EXPECT_EQ(source_.start(source_.self), SPHC_OK);
+    for (int image = 0; image < 2; ++image) EXPECT_EQ(acquire(0), SPHC_OK);
+  }
+  sphc_status acquire(uint32_t timeout_us) {
+    sphc_capture capture;
+    return source_.acquire(source_.self, timeout_us, &capture);
+  }
+
+ private:
+  const test::TempFolder folder_;
+  std::optional<OpenReplay> replay_;
+  sphc_source source_ = {};
+};
+
 TEST_F(Replay, SaysAgainUntilTheTimeHasCome) {
-  const test::TempFolder slow;
-  writeTinyRecording(slow.path().string(), 2);
-  slow.write("rgb.txt", "10.0 rgb/000000.png\n1000.0 rgb/000001.png\n");
-  slow.write("depth.txt", "10.0 depth/000000.png\n");
-  config_.mode = SPHC_REPLAY_REAL_TIME;
-  const OpenReplay replay(slow.path().string(), nullptr, &config_);
-  sphc_source source;
-  ASSERT_EQ(sphc_replay_source(replay.get(), &source), SPHC_OK);
-  ASSERT_EQ(source.start(source.self), SPHC_OK);
-  sphc_capture capture;
-  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
-  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
+  LateImage late("10.0", "1000.0");
   const Clock::time_point begin = Clock::now();
-  EXPECT_EQ(source.acquire(source.self, 0, &capture), SPHC_AGAIN);
-  EXPECT_EQ(source.acquire(source.self, 30000, &capture), SPHC_AGAIN);
+  EXPECT_EQ(late.acquire(0), SPHC_AGAIN);
+  EXPECT_EQ(late.acquire(30000), SPHC_AGAIN);
   EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(30));
 }
 
 // The latest that a list can tell: more than the host's clock can count on from now.
 TEST_F(Replay, ATimeInCenturiesHasNotCome) {
-  const test::TempFolder slow;
-  writeTinyRecording(slow.path().string(), 2);
-  slow.write("rgb.txt", "0.0 rgb/000000.png\n9223372035.9 rgb/000001.png\n");
-  slow.write("depth.txt", "0.0 depth/000000.png\n");
-  config_.mode = SPHC_REPLAY_REAL_TIME;
-  const OpenReplay replay(slow.path().string(), nullptr, &config_);
-  sphc_source source;
-  ASSERT_EQ(sphc_replay_source(replay.get(), &source), SPHC_OK);
-  ASSERT_EQ(source.start(source.self), SPHC_OK);
-  sphc_capture capture;
-  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
-  ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
-  EXPECT_EQ(source.acquire(source.self, 1000, &capture), SPHC_AGAIN);
+  LateImage late("0.0", "9223372035.9");
+  EXPECT_EQ(late.acquire(1000), SPHC_AGAIN);
 }
 
 TEST_F(Replay, ChecksItsArguments) {
