@@ -54,6 +54,19 @@ void addThing(Builder &b, const Place &place) {
   }
 }
 
+// One of many that look the same.  `x`, `z`: the middle of its foot, from `place`.
+void addBinder(Builder &b, const Place &place, double x, double shelf_depth, double z) {
+  constexpr uint64_t kSeed = 29;
+  constexpr double kWidth = 0.075, kHeight = 0.32, kDepth = 0.28;
+  const Vec3d middle{x, 0.5 * shelf_depth, z + 0.5 * kHeight};
+  const Vec3d extent{0.5 * kWidth, 0.5 * kDepth, 0.5 * kHeight};
+  b.movable(place, 0, [&](const Place &own) {
+    b.repeatably(kSeed, [&] {
+      b.boxWithFront(own, middle, extent, {Material::kPaper, 0.008f}, {Material::kBinder, 0.0015f});
+    });
+  });
+}
+
 }  // namespace
 
 void addBooks(Builder &b, const Place &place, double x0, double x1, double front, double z, double room) {
@@ -104,9 +117,7 @@ void addBookshelf(Builder &b, const Place &place, double width, double height) {
 void addBinderShelf(Builder &b, const Place &place, double width) {
   b.newStyle();
   constexpr int kBoards = 6;
-  constexpr uint64_t kBinderSeed = 29;
   constexpr double kDepth = 0.32, kBoard = 0.012, kPitch = 0.38, kPeriod = 0.08;
-  constexpr double kBinderWidth = 0.075, kBinderHeight = 0.32, kBinderDepth = 0.28;
   constexpr double kHeight = (kBoards - 1) * kPitch + kBoard;
   const double half = 0.5 * width;
   for (const double x : {-half, half})
@@ -116,15 +127,7 @@ void addBinderShelf(Builder &b, const Place &place, double width) {
     const double z = kBoard + board * kPitch;
     b.box(place, {0, 0.5 * kDepth, z}, {half, 0.5 * kDepth, kBoard}, kWood);
     if (board == kBoards - 1) break;
-    for (int i = 0; i < binders; ++i) {
-      const Vec3d middle{(i - 0.5 * (binders - 1)) * kPeriod, 0.5 * kDepth, z + kBoard + 0.5 * kBinderHeight};
-      const Vec3d extent{0.5 * kBinderWidth, 0.5 * kBinderDepth, 0.5 * kBinderHeight};
-      b.movable(place, 0, [&](const Place &own) {
-        b.repeatably(kBinderSeed, [&] {
-          b.boxWithFront(own, middle, extent, {Material::kPaper, 0.008f}, {Material::kBinder, 0.0015f});
-        });
-      });
-    }
+    for (int i = 0; i < binders; ++i) addBinder(b, place, (i - 0.5 * (binders - 1)) * kPeriod, kDepth, z + kBoard);
   }
 }
 
