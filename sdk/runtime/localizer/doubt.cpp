@@ -32,9 +32,10 @@ class PointsOfPose {
 
  private:
   PointDistance distanceOf(const Correspondence &c, uint32_t point_index) const {
-    const double distance_m = c.direction.dot(map_from_camera_ * c.lifted.point_m);
-    const double cosine = c.lifted.view().dot(found_.estimate.camera_from_map.rotation * c.direction);
-    const double across2 = c.lifted.sideways_m * c.lifted.sideways_m, along2 = c.lifted.along_m * c.lifted.along_m;
+    const LiftedPoint lifted = corrected(c.lifted, found_.estimate.depth);
+    const double distance_m = c.direction.dot(map_from_camera_ * lifted.point_m);
+    const double cosine = lifted.view().dot(found_.estimate.camera_from_map.rotation * c.direction);
+    const double across2 = lifted.sideways_m * lifted.sideways_m, along2 = lifted.along_m * lifted.along_m;
     const double own2 =
         kDistanceFloorM * kDistanceFloorM + kDistanceShare * kDistanceShare * distance_m * distance_m;
     return {point_index, distance_m, across2 + (along2 - across2) * cosine * cosine + pose_variance_m2_ + own2};
@@ -90,12 +91,15 @@ bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hyp
   Rigid step;
   double unused_rad, step_sigma_m;
   if (!tracker.step(&step, &unused_rad, &step_sigma_m)) reset();
+  way_variance_m2_ += step_sigma_m * step_sigma_m;
   if (!known.has_odometry || !found.isLocalized()) return false;
   if (found.map != map_) reset();
   map_ = found.map;
   travel_.add(found.estimate.camera_from_map.inverse().translation_m,
-              known.odometry.odometry_from_camera.translation_m, axisSigma(found.estimate.covariance, 3));
-  was_scaled_ = travel_.isScaled(step_sigma_m);
+              known.odometry.odometry_from_camera.translation_m, axisSigma(found.estimate.covariance, 3),
+              way_variance_m2_);
+  way_variance_m2_ = 0;
+  was_scaled_ = travel_.isScaled();
   return was_scaled_;
 }
 

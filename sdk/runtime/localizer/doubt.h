@@ -32,6 +32,7 @@ class TravelCheck {
  public:
   void reset() {
     travel_.reset();
+    way_variance_m2_ = 0;
     was_scaled_ = false;
   }
   // The map in this slot is gone.
@@ -45,6 +46,7 @@ class TravelCheck {
 
  private:
   Travel travel_;
+  double way_variance_m2_ = 0;  // of odometry along an axis, since the last frame with a pose
   bool was_scaled_ = false;
   uint32_t map_ = 0;
 };

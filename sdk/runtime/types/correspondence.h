@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "runtime/geometry/rotation.h"
+#include "runtime/types/depth_calibration.h"
 
 namespace sphc {
 
@@ -20,6 +21,14 @@ struct LiftedPoint {
   // Unit.
   Vector3 view() const { return (point_m - centre_m.cast<double>()).normalized(); }
 };
+
+// As the sensor would have measured it without its bias, and with its noise as it is.
+inline LiftedPoint corrected(const LiftedPoint &lifted, const DepthCalibration &depth) {
+  LiftedPoint point = lifted;
+  if (lifted.hasDepth()) point.point_m *= 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z();
+  point.along_m *= depth.noise_scale;
+  return point;
+}
 
 struct Correspondence {
   LiftedPoint lifted;

@@ -21,9 +21,10 @@ constexpr double kDrift = 1 / (kPi * kPi);
 
 }  // namespace
 
-void Travel::add(const Vector3 &centre_in_map_m, const Vector3 &centre_in_odometry_m, double sigma_m) {
+void Travel::add(const Vector3 &centre_in_map_m, const Vector3 &centre_in_odometry_m, double sigma_m,
+                 double way_variance_m2) {
   if (count_ == 0) next_ = 0;
-  places_[next_] = {centre_in_map_m, centre_in_odometry_m, sigma_m};
+  places_[next_] = {centre_in_map_m, centre_in_odometry_m, sigma_m, way_variance_m2};
   next_ = (next_ + 1) % kCapacity;
   if (count_ < kCapacity) ++count_;
 }
@@ -41,17 +42,17 @@ Travel::Spread Travel::spread() const {
     spread.map2 += (places_[i].map_m - map).squaredNorm() / count_;
     spread.odometry2 += (places_[i].odometry_m - odometry).squaredNorm() / count_;
     spread.sigma2 += kHonest * kHonest * places_[i].sigma_m * places_[i].sigma_m / count_;
+    spread.way2 += places_[i].way_variance_m2;
   }
   return spread;
 }
 
-bool Travel::isScaled(double step_sigma_m) const {
+bool Travel::isScaled() const {
   if (count_ < kFewest) return false;
   const Spread s = spread();
   const double off = 0.5 * absOf(logOf(s.map2 / s.odometry2));
   const double far2 = std::min(std::max(s.map2, s.odometry2), kFarM * kFarM);
-  const double drift2 = kDrift * step_sigma_m * step_sigma_m * count_;
-  const double sigma2 = (s.sigma2 * kIndependent / count_ + drift2) / s.odometry2;
+  const double sigma2 = (s.sigma2 * kIndependent / count_ + kDrift * s.way2) / s.odometry2;
   return off * far2 > kMostOff * kFarM * kFarM && off * off > kSigmas * kSigmas * sigma2;
 }
 

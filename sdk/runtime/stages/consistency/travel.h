@@ -7,20 +7,23 @@ namespace sphc {
 
 class Travel {
  public:
-  // The camera's centre by a pose and by odometry, each in a frame of its own; sigma: of the pose's, one axis.
-  void add(const Vector3 &centre_in_map_m, const Vector3 &centre_in_odometry_m, double sigma_m);
+  // The camera's centre by a pose and by odometry, each in a frame of its own; sigma: of the pose's, one axis;
+  // variance: of odometry from the place before, along each axis.
+  void add(const Vector3 &centre_in_map_m, const Vector3 &centre_in_odometry_m, double sigma_m,
+           double way_variance_m2);
   void reset() { count_ = 0; }
-  // Do the two disagree for sure?  `step_sigma_m`: of odometry from one place to the next, along each axis.
-  bool isScaled(double step_sigma_m) const;
+  // Do the two disagree for sure?
+  bool isScaled() const;
 
  private:
   static constexpr uint32_t kCapacity = 64;
   struct Place {
     Vector3 map_m, odometry_m;
-    double sigma_m;
+    double sigma_m, way_variance_m2;
   };
   struct Spread {
     double map2 = 0, odometry2 = 0, sigma2 = 0;  // means of squares, m^2
+    double way2 = 0;                             // sum of variances, m^2
   };
   Spread spread() const;
 

@@ -70,10 +70,6 @@ uint32_t stepThrough(uint32_t count) {
 
 uint32_t sampleSize(const PoseQuery &query) { return query.prior && query.prior->has_up ? 2 : 3; }
 
-double lengthening(const LiftedPoint &lifted, const DepthCalibration &depth) {
-  return lifted.hasDepth() ? 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z() : 1;
-}
-
 }  // namespace
 
 void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEstimator *estimator) {
@@ -136,16 +132,11 @@ void PoseEstimator::keepNear(const RefineTask &task, const Rigid &pose, float li
   near_.pad();
 }
 
-// Keeps rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake):
-// their epipolar planes still tell something.
+// Of rows without depth alone: a row with depth that disagrees is a wrong match more often than a wrong depth, and
+// wrong matches of things that stand in a row agree with their planes and pull to one side (decision 108).
 void PoseEstimator::keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2) {
-  const NormalTask kernel = normalTask(task, pose, Vector2::Zero());
+  kernels_->plane_residuals(planes_, normalTask(task, pose, Vector2::Zero()), plane_squared_.data());
   near_planes_.count = 0;
-  kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
-  for (uint32_t i = 0; i < lifted_.count; ++i)
-    if (squared_[i] < limit2) plane_squared_[i] = kNeverNear;  // in full already
-  near_planes_.pushBelow(lifted_, plane_squared_.data(), limit2, kept_.data());
-  kernels_->plane_residuals(planes_, kernel, plane_squared_.data());
   near_planes_.pushBelow(planes_, plane_squared_.data(), limit2, kept_.data());
   near_planes_.pad();
 }
@@ -337,16 +328,14 @@ bool PoseEstimator::tellsOfDepth(const PoseRows &rows, uint32_t row, const Rigid
 }
 
 // Of the rows that agree with their epipolar plane: median error along the ray over what was expected.  Outliers of
-// depth (edges, multipath) count, fakes rarely pass.  squared_ holds the residuals of near_.
+// depth (edges, multipath) count, fakes rarely pass.
 double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
-  kernels_->plane_residuals(near_, kernel, plane_squared_.data());
+  kernels_->residuals(lifted_, kernel, squared_.data());
+  kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
   uint32_t seen = 0;
-  for (uint32_t i = 0; i < near_.count; ++i)
-    if (plane_squared_[i] < kAgreeingPlane2 && squared_[i] < kNeverNear && tellsOfDepth(near_, i, pose))
+  for (uint32_t i = 0; i < lifted_.count; ++i)
+    if (plane_squared_[i] < kAgreeingPlane2 && tellsOfDepth(lifted_, i, pose))
       squared_[seen++] = squared_[i] - plane_squared_[i];
-  kernels_->plane_residuals(near_planes_, kernel, plane_squared_.data());
-  for (uint32_t i = 0; i < near_planes_.count; ++i)
-    if (plane_squared_[i] < kAgreeingPlane2 && tellsOfDepth(near_planes_, i, pose)) squared_[seen++] = kNeverNear;
   if (seen < kFewestForNoise) return 0;
   std::nth_element(squared_.data(), squared_.data() + seen / 2, squared_.data() + seen);
   const double median = static_cast<double>(squared_[seen / 2]);
@@ -404,10 +393,8 @@ void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterat
 
 bool PoseEstimator::isInlier(const Correspondence &correspondence, const Estimate &estimate) const {
   if (!correspondence.lifted.hasDepth()) return false;
-  Correspondence corrected = correspondence;
-  corrected.lifted.point_m *= lengthening(correspondence.lifted, estimate.depth);
-  corrected.lifted.along_m *= estimate.depth.noise_scale;
-  const Residual r = residualOf(corrected, estimate.camera_from_map);
+  const Correspondence seen = {corrected(correspondence.lifted, estimate.depth), correspondence.direction};
+  const Residual r = residualOf(seen, estimate.camera_from_map);
   return r.in_front && r.squared < config_.inlier_threshold2;
 }
 

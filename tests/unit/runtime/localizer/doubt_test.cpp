@@ -69,7 +69,7 @@ TEST_F(DoubtTest, WithoutAPoseOrAVerticalNothingDisagrees) {
   EXPECT_EQ(compare(knownVertical(degrees(5))), Vertical::kUnknown);
 }
 
-// Walks along x, a second and a decimetre a step by odometry.
+// Walks along x by odometry.
 class TravelCheckTest : public DoubtTest {
  protected:
   bool walk(uint32_t steps, double scale) {
@@ -77,9 +77,10 @@ class TravelCheckTest : public DoubtTest {
     for (uint32_t i = 0; i < steps; ++i, ++step_) {
       Known known;
       known.has_odometry = true;
-      known.odometry.odometry_from_camera.translation_m = {0.1 * step_, 0, 0};
+      known.odometry.translation_sigma_m = step_sigma_m_;
+      known.odometry.odometry_from_camera.translation_m = {step_m_ * step_, 0, 0};
       tracker_.advance(int64_t{100000000} * step_, &known.odometry);
-      found().estimate.camera_from_map = {Matrix3::Identity(), {-0.1 * scale * step_, 0, 0}};
+      found().estimate.camera_from_map = {Matrix3::Identity(), {-step_m_ * scale * step_, 0, 0}};
       scaled = check_.isScaled(known, tracker_, found());
     }
     return scaled;
@@ -87,12 +88,27 @@ class TravelCheckTest : public DoubtTest {
   Tracker tracker_;
   TravelCheck check_;
   uint32_t step_ = 1;
+  double step_m_ = 0.1, step_sigma_m_ = 0;
 };
 
 TEST_F(TravelCheckTest, PosesThatGoFartherThanOdometryAreScaled) {
   EXPECT_FALSE(walk(30, 1));
   check_.reset();
   EXPECT_TRUE(walk(30, 1.3));
+}
+
+// The way is as long, and odometry drifts on it for ten times as many steps.
+TEST_F(TravelCheckTest, FramesWithoutAPoseAddTheirSteps) {
+  step_sigma_m_ = 0.02;
+  EXPECT_TRUE(walk(30, 1.3));
+  check_.reset();
+  step_m_ = 0.01;
+  for (int pose = 0; pose < 30; ++pose) {
+    found().outcome = Outcome::kUncertain;
+    walk(9, 1.3);
+    found().outcome = Outcome::kLocalized;
+    EXPECT_FALSE(walk(1, 1.3)) << pose;
+  }
 }
 
 TEST_F(TravelCheckTest, AnotherMapBeginsAnotherWay) {

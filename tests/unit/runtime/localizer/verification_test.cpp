@@ -525,8 +525,8 @@ class TurnedAboutACoreTest : public VerificationTest {
  protected:
   explicit TurnedAboutACoreTest(size_t core = 14, bool are_turned = true)
       : VerificationTest(test::mapOf(joined(core, are_turned), Vector3(0, 0, 1))) {
-    parts_.config.pixel_sigma_px *= 0.5;  // so that few inliers pin the camera down
-    parts_.config.map_sigma_m *= 0.5;
+    parts_.config.pixel_sigma_px *= 0.4;  // so that few inliers pin the camera down
+    parts_.config.map_sigma_m *= 0.4;
     parts_.front.init(parts_.config);
   }
   static std::vector<test::WorldPoint> joined(size_t core, bool are_turned) {

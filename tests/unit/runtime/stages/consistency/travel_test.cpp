@@ -9,51 +9,52 @@ namespace {
 
 constexpr double kSigmaM = 0.003, kStepM = 0.0005;
 
-Travel walked(double scale, double length_m, int places) {
+Travel walked(double scale, double length_m, int places, double step_m = kStepM) {
   Travel travel;
   for (int i = 0; i < places; ++i) {
     const double at = length_m * i / places;
     const Vector3 odometry(at, 0.1 * at, 0.3 * at * at);
     const Vector3 map = scale * Vector3(-odometry.y(), odometry.x(), odometry.z()) + Vector3(1, 2, 3);
-    travel.add(map, odometry, kSigmaM);
+    travel.add(map, odometry, kSigmaM, step_m * step_m);
   }
   return travel;
 }
 
 TEST(Travel, AnotherScaleIsSeen) {
-  for (const double scale : {0.5, 0.92, 1.1, 2.0}) EXPECT_TRUE(walked(scale, 2, 30).isScaled(kStepM)) << scale;
-  for (const double scale : {0.96, 1.0, 1.04}) EXPECT_FALSE(walked(scale, 2, 30).isScaled(kStepM)) << scale;
+  for (const double scale : {0.5, 0.92, 1.1, 2.0}) EXPECT_TRUE(walked(scale, 2, 30).isScaled()) << scale;
+  for (const double scale : {0.96, 1.0, 1.04}) EXPECT_FALSE(walked(scale, 2, 30).isScaled()) << scale;
 }
 
 // 17 cm are 5 cm about their mean: half the way is told from what poses are off there, a tenth is not.
 TEST(Travel, AShortWayTellsALargeChangeAlone) {
-  EXPECT_TRUE(walked(0.5, 0.17, 30).isScaled(kStepM));
-  EXPECT_FALSE(walked(1.1, 0.17, 30).isScaled(kStepM));
-  EXPECT_FALSE(walked(0.5, 0.05, 30).isScaled(kStepM));
-  EXPECT_FALSE(walked(0.5, 2, 3).isScaled(kStepM)) << "too few places";
+  EXPECT_TRUE(walked(0.5, 0.17, 30).isScaled());
+  EXPECT_FALSE(walked(1.1, 0.17, 30).isScaled());
+  EXPECT_FALSE(walked(0.5, 0.05, 30).isScaled());
+  EXPECT_FALSE(walked(0.5, 2, 3).isScaled()) << "too few places";
 }
 
 // 30 steps of 2 cm lead off by as much as half the way does.
 TEST(Travel, OdometryThatDriftsIsNotBelieved) {
-  EXPECT_TRUE(walked(0.7, 0.3, 30).isScaled(0.002));
-  EXPECT_FALSE(walked(0.7, 0.3, 30).isScaled(0.02));
+  EXPECT_TRUE(walked(0.7, 0.3, 30, 0.002).isScaled());
+  EXPECT_FALSE(walked(0.7, 0.3, 30, 0.02).isScaled());
 }
 
 TEST(Travel, WhoStandsStillIsNotScaled) {
   Travel still, shaken;
   for (int i = 0; i < 30; ++i) {
-    still.add(Vector3::Zero(), Vector3::Zero(), kSigmaM);
-    shaken.add(Vector3(0.004 * (i % 3), 0, 0), Vector3(0.0001 * (i % 2), 0, 0), kSigmaM);
+    still.add(Vector3::Zero(), Vector3::Zero(), kSigmaM, kStepM * kStepM);
+    shaken.add(Vector3(0.004 * (i % 3), 0, 0), Vector3(0.0001 * (i % 2), 0, 0), kSigmaM, kStepM * kStepM);
   }
-  EXPECT_FALSE(still.isScaled(kStepM));
-  EXPECT_FALSE(shaken.isScaled(kStepM)) << "poses are off by their sigma";
+  EXPECT_FALSE(still.isScaled());
+  EXPECT_FALSE(shaken.isScaled()) << "poses are off by their sigma";
 }
 
 TEST(Travel, ForgetsWhatLiesFarBack) {
   Travel travel = walked(1.3, 2, 30);
-  EXPECT_TRUE(travel.isScaled(kStepM));
-  for (int i = 0; i < 64; ++i) travel.add(Vector3(0.03 * i, 0, 0), Vector3(0.03 * i, 0, 0), kSigmaM);
-  EXPECT_FALSE(travel.isScaled(kStepM));
+  EXPECT_TRUE(travel.isScaled());
+  for (int i = 0; i < 64; ++i)
+    travel.add(Vector3(0.03 * i, 0, 0), Vector3(0.03 * i, 0, 0), kSigmaM, kStepM * kStepM);
+  EXPECT_FALSE(travel.isScaled());
 }
 
 }  // namespace

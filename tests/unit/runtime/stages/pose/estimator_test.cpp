@@ -80,6 +80,30 @@ TEST(Estimator, RowsWithoutDepthHelp) {
   EXPECT_LT(test::median(with), 0.9 * test::median(without));
 }
 
+// Equal things that stand in a row: two in five matches are with one of the next two, 8 or 16 cm on.  The sphere
+// centre lies to the side, so these agree with their epipolar planes.
+TEST(Estimator, MatchesWithTheNextOfARowDoNotPull) {
+  test::TestEstimator estimator;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::PoseWorldOptions options;
+    options.seed = seed;
+    options.wall_m = 2.5;
+    options.centre_offset_m = Vector3(1, 0.1, -2);
+    options.depth_sigma_m = options.stated_depth_sigma_m = 0.02;
+    options.pixel_sigma_px = 1;
+    test::PoseWorld world = test::makePoseWorld(options);
+    const Rigid map_from_camera = world.camera_from_map.inverse();
+    for (size_t i = 0; i < world.correspondences.size(); ++i) {
+      Correspondence &c = world.correspondences[i];
+      if (i % 5 >= 2) continue;
+      const Vector3 on_m(i % 5 == 0 ? 0.08 : 0.16, 0, 0);
+      c.direction = (map_from_camera * (c.lifted.point_m + on_m)).normalized();
+    }
+    const Estimate estimate = estimator.search(world, seed);
+    EXPECT_LT(test::translationErrorM(estimate.camera_from_map, world.camera_from_map), 0.02) << seed;
+  }
+}
+
 TEST(Estimator, WithNoiseTheErrorIsThatOfTheNoise) {
   test::TestEstimator estimator;
   for (uint64_t seed = 1; seed <= 20; ++seed) {

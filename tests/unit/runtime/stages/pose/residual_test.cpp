@@ -10,6 +10,21 @@
 namespace sphc {
 namespace {
 
+TEST(Corrected, APointLiesWhereASensorWithoutBiasHasIt) {
+  DepthCalibration depth;
+  depth.mid_m = 2;
+  depth.mean = {0.01, -0.04};
+  depth.noise_scale = 1.5;
+  const LiftedPoint measured = {Vector3(0.5, 0.2, 4), 0.005, 0.02};
+  const LiftedPoint point = corrected(measured, depth);
+  EXPECT_NEAR(point.point_m.z(), 4 + 0.01 - 0.04 * 2, 1e-12);
+  EXPECT_LT(point.point_m.normalized().cross(measured.point_m.normalized()).norm(), 1e-12);
+  EXPECT_EQ(point.sideways_m, 0.005);
+  EXPECT_EQ(point.along_m, 0.03);
+  const LiftedPoint ray = {Vector3(0.1, 0, 1), 0.005, INFINITY};
+  EXPECT_EQ(corrected(ray, depth).point_m, ray.point_m);
+}
+
 TEST(Residual, IsZeroAtTheTruth) {
   const test::PoseWorld world = test::makePoseWorld({});
   for (const Correspondence &c : world.correspondences) {
