@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/stages/pose/confidence.h"
+
 namespace sphc {
 
 void Fusion::layout(uint32_t capacity, Arena &state, Fusion *fusion) {
@@ -40,6 +42,12 @@ void Fusion::addTo(const MapView &map, MatchSet *matched) const {
     if (std::none_of(own.begin(), own.end(), is_same))
       matched->add({old.lifted, directionOf(map, old.point_index), old.quality});
   }
+}
+
+void Fusion::widenByDrift(double share_of_earlier, Estimate *estimate) const {
+  double turn_sigma_rad, shift_sigma_m;
+  history_.driftOfEarlier(&turn_sigma_rad, &shift_sigma_m);
+  widen(share_of_earlier * turn_sigma_rad, share_of_earlier * shift_sigma_m, estimate);
 }
 
 }  // namespace sphc

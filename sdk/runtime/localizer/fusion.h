@@ -27,6 +27,8 @@ class Fusion {
   // Puts the matches that are kept behind those of this frame, each map point once: the same wrong match, seen
   // twice, is no evidence.
   void addTo(const MapView &map, MatchSet *matched) const;
+  // A pose whose inliers are of earlier frames by this share is off by what their matches are, all together.
+  void widenByDrift(double share_of_earlier, Estimate *estimate) const;
 
  private:
   History history_;

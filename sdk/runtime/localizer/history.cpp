@@ -12,14 +12,17 @@ void History::layout(uint32_t capacity, Arena &state, History *history) {
 }
 
 void History::advance(const Rigid &now_from_before, double rotation_sigma_rad, double translation_sigma_m) {
+  const double turn_variance = rotation_sigma_rad * rotation_sigma_rad,
+               shift_variance = translation_sigma_m * translation_sigma_m;
+  for (uint32_t age = tuning::kMostFramesTogether; age > 0; --age)
+    since_[age] = {since_[age - 1].turn_variance + turn_variance, since_[age - 1].shift_variance + shift_variance};
   uint32_t kept = 0;
   for (uint32_t i = 0; i < count_; ++i) {
     OldMatch match = matches_[i];
     LiftedPoint &lifted = match.lifted;
     match.depth_ray = now_from_before.rotation * match.depth_ray;
     lifted.point_m = now_from_before * lifted.point_m;
-    const double turned = rotation_sigma_rad * lifted.point_m.norm();
-    match.rest_variance += turned * turned + translation_sigma_m * translation_sigma_m;
+    match.rest_variance += turn_variance * lifted.point_m.squaredNorm() + shift_variance;
     // What of the depth error now lies across the viewing ray adds to the error there.
     const double cosine = match.depth_ray.dot(lifted.point_m.normalized());
     const double cosine2 = std::min(1.0, cosine * cosine);
@@ -45,6 +48,18 @@ void History::add(const LiftedPoint &lifted, uint32_t point_index, float quality
   OldMatch &match = matches_[place];
   match = {lifted, lifted.view(), depth_variance, rest_variance, point_index, quality, 0};
   match.lifted.centre_m.setZero();  // later frames look at it from elsewhere anyway
+}
+
+void History::driftOfEarlier(double *turn_sigma_rad, double *shift_sigma_m) const {
+  uint32_t earlier = 0;
+  Drift sum;
+  for (const OldMatch &match : matches()) {
+    earlier += match.age > 0;
+    sum.turn_variance += since_[match.age].turn_variance;
+    sum.shift_variance += since_[match.age].shift_variance;
+  }
+  *turn_sigma_rad = earlier ? sqrtOf(sum.turn_variance / earlier) : 0;
+  *shift_sigma_m = earlier ? sqrtOf(sum.shift_variance / earlier) : 0;
 }
 
 uint32_t History::frames() const {

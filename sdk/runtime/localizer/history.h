@@ -3,6 +3,7 @@
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/localizer/tuning.h"
 #include "runtime/types/correspondence.h"
 
 namespace sphc {
@@ -31,10 +32,18 @@ class History {
   Span<const OldMatch> matches() const { return matches_.first(count_); }
   // Frames that the matches come from.
   uint32_t frames() const;
+  // What the odometry since then puts the matches of earlier frames off by, all of a frame together: 1 sigma an
+  // axis, in the mean.
+  void driftOfEarlier(double *turn_sigma_rad, double *shift_sigma_m) const;
 
  private:
+  struct Drift {
+    double turn_variance = 0, shift_variance = 0;
+  };
+
   Span<OldMatch> matches_;  // in state
   uint32_t count_ = 0;
+  Drift since_[tuning::kMostFramesTogether + 1];  // by age
 };
 
 }  // namespace sphc

@@ -125,6 +125,8 @@ void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   const Span<const Correspondence> now = matched.ofThisFrame();
   const auto agrees = [&](const Correspondence &c) { return estimator_.isInlier(c, estimate); };
   const auto inliers = static_cast<uint32_t>(std::count_if(now.begin(), now.end(), agrees));
+  if (hypothesis->frames > 1 && estimate.inliers > inliers)
+    fusion_.widenByDrift(1 - static_cast<double>(inliers) / estimate.inliers, &estimate);
   const double last_cone_rad = task.cones_rad[task.cones_rad.size() - 1];
   Evidence &evidence = hypothesis->evidence;
   evidence.inliers = estimate.inliers;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/stages/pose/confidence.h"
 #include "tests/unit/runtime/localizer/room_parts.h"
 
 namespace sphc {
@@ -87,6 +88,22 @@ TEST_F(FusionTest, WithoutOdometryAllIsForgotten) {
   parts_.fusion.advance(tracker_);
   EXPECT_EQ(parts_.fusion.frames(), 0u);
   EXPECT_FALSE(parts_.fusion.remember(0, matches({{1, 11}})));
+}
+
+// By as much as its inliers are theirs.
+TEST_F(FusionTest, APoseOfEarlierMatchesIsOffByTheirDrift) {
+  advance(0);
+  parts_.fusion.remember(0, matches({{0, 10}}));
+  advance(0.1);
+  parts_.fusion.remember(0, matches({{1, 11}}));
+  Estimate estimate;
+  estimate.inliers = 100;
+  estimate.covariance = 1e-8 * Matrix6::Identity();
+  const Matrix6 before = statedCovariance(estimate);
+  parts_.fusion.widenByDrift(0.5, &estimate);
+  const Matrix6 wider = statedCovariance(estimate) - before;
+  for (int axis = 0; axis < 6; ++axis)
+    EXPECT_NEAR(wider(axis, axis), 0.25e-8, 1e-14) << axis;  // of 0.1 mrad, 0.1 mm
 }
 
 TEST_F(FusionTest, RaysAreNotRemembered) {

@@ -36,6 +36,19 @@ TEST_F(HistoryTest, PointsFollowTheCameraAndGetVaguer) {
   EXPECT_LT(match.lifted.along_m, 0.021);
 }
 
+TEST_F(HistoryTest, WhatOdometryDriftedByIsThatOfEarlierMatches) {
+  double turn_rad = 1, shift_m = 1;
+  history_.add(pointAt(0.5, 2), 7, 0);
+  history_.driftOfEarlier(&turn_rad, &shift_m);
+  EXPECT_EQ(turn_rad, 0);
+  EXPECT_EQ(shift_m, 0);
+  for (int i = 0; i < 4; ++i) history_.advance({}, 1e-3, 2e-3);
+  history_.add(pointAt(0.4, 2), 8, 0);
+  history_.driftOfEarlier(&turn_rad, &shift_m);
+  EXPECT_NEAR(turn_rad, 2e-3, 1e-12);
+  EXPECT_NEAR(shift_m, 4e-3, 1e-12);
+}
+
 TEST_F(HistoryTest, DepthErrorSeenFromTheSideIsSideways) {
   history_.add({Vector3(0, 0, 1), 0.001, 0.02}, 1, 0);
   // around the point by a right angle: what was along is across now
