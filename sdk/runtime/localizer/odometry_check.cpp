@@ -80,15 +80,15 @@ bool OdometryCheck::follows(const Look &now) const {
 }
 
 bool OdometryCheck::contradict(const Look &before, const Look &now) {
-  const auto sigma = [](double one, double other, double variance_between) {
-    return hypotOf(hypotOf(one, other), sqrtOf(variance_between));
-  };
-  const PoseBounds most =
-      boundsOfNoJump(sigma(before.pose_turn, now.pose_turn, now.odometry_turn - before.odometry_turn),
-                     sigma(before.pose_shift, now.pose_shift, now.odometry_shift - before.odometry_shift));
   const Rigid apart = now.odometry_from_map * before.odometry_from_map.inverse();
   const Vector3 by_poses_m = before.odometry_from_map * now.centre_in_map_m - before.centre_in_odometry_m;
   const Vector3 by_odometry_m = now.centre_in_odometry_m - before.centre_in_odometry_m;
+  // An error of the direction that the way begins with grows with the way.
+  const double direction_rad = hypotOf(before.pose_turn, sqrtOf(now.odometry_turn - before.odometry_turn)),
+               ends_m = hypotOf(before.pose_shift, now.pose_shift),
+               way_m = sqrtOf(now.odometry_shift - before.odometry_shift);
+  const PoseBounds most = boundsOfNoJump(hypotOf(direction_rad, now.pose_turn),
+                                         hypotOf(hypotOf(ends_m, way_m), direction_rad * by_odometry_m.norm()));
   return rotationAngle(apart.rotation) > most.most_turn_rad ||
          shiftApart(by_poses_m, by_odometry_m) > most.most_shift_m;
 }

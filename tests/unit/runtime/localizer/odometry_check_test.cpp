@@ -39,8 +39,11 @@ class OdometryCheckTest : public testing::Test {
     Hypothesis found;
     found.map = map_;
     found.outcome = is_found_ ? Outcome::kLocalized : Outcome::kFewMatches;
-    found.estimate.camera_from_map = Rigid{rotationFromVector(Vector3(0, angle_, 0)), centre_m_}.inverse();
+    wobble_rad_ = -wobble_rad_;
+    found.estimate.camera_from_map =
+        Rigid{rotationFromVector(Vector3(0, angle_ + wobble_rad_, 0)), centre_m_}.inverse();
     found.estimate.covariance = 1e-6 * Matrix6::Identity();
+    found.estimate.covariance(1, 1) += wobble_rad_ * wobble_rad_;
     found.estimate.inliers = 200;
     Known known;
     known.has_odometry = has_odometry_;
@@ -48,7 +51,7 @@ class OdometryCheckTest : public testing::Test {
     check_.look(time_ns_, known, found);
   }
   OdometryCheck check_;
-  double angle_ = 0;
+  double angle_ = 0, wobble_rad_ = 0;  // the latter: what each pose is off by, to and fro
   Vector3 centre_m_ = Vector3::Zero(), odometry_rad_ = Vector3::Zero(), odometry_m_ = Vector3::Zero();
   uint32_t map_ = 0;
   bool is_found_ = true, has_odometry_ = true;
@@ -59,6 +62,12 @@ class OdometryCheckTest : public testing::Test {
 TEST_F(OdometryCheckTest, SoundOdometryAgrees) {
   EXPECT_FALSE(turn(300, 2));
   EXPECT_FALSE(go(300, 0.02));
+}
+
+// A direction that is a degree off is half a metre after 30.
+TEST_F(OdometryCheckTest, SoundOdometryAgreesWithVaguePosesOverALongWay) {
+  wobble_rad_ = degrees(1);
+  EXPECT_FALSE(go(600, 0.1));
 }
 
 TEST_F(OdometryCheckTest, TwiceAsFarApartAsAJumpIsEnough) {
