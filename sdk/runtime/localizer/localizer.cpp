@@ -222,7 +222,7 @@ void Localizer::findPose(const Known &known, const Deadline &deadline, Faults *f
     widen(between_.turnSigma(), between_.shiftSigma(), &best().estimate);
   }
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
-  if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
+  if (wouldMakeTrackSure(known, *faults)) finder_.confirm(deadline, work);
   was_ambiguous_ = best().is_ambiguous && !best().isLocalized();
 }
 

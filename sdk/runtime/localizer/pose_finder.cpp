@@ -103,10 +103,10 @@ const Hypothesis &PoseFinder::findMirrored(const Deadline &deadline, Work *work)
   return candidate_;
 }
 
-void PoseFinder::confirm(const Known &known, const Deadline &deadline, Work *work) {
+void PoseFinder::confirm(const Deadline &deadline, Work *work) {
   const Cuts before = std::exchange(work->cuts, Cuts{0});
-  const PosePrior prior = priorFor(known, best_.map);
-  PoseTask task = taskOfWholeMap(best_.map, queryFor(prior, deadline), work);
+  const PosePrior nothing;
+  PoseTask task = taskOfWholeMap(best_.map, queryFor(nothing, deadline), work);
   task.expected = &best_.estimate.camera_from_map;
   matchAll(best_.map, &task, work);
   solve(task, work);

@@ -28,9 +28,10 @@ class PoseFinder {
   void begin(const Frame &frame);
   // Makes best() what is found with all that is known, in place of what was found before.
   void find(const Known &known, const Deadline &deadline, Work *work);
-  // Holds the whole map against best(), which was looked for where it was expected: what the map does not confirm
-  // is ambiguous.  A frame may lack this step for its deadline; then the pose may have a rival.
-  void confirm(const Known &known, const Deadline &deadline, Work *work);
+  // Holds the whole map against best(), which was looked for where it was expected, by matches alone: what the
+  // caller says may be wrong.  What the map does not confirm is ambiguous.  A frame may lack this step for its
+  // deadline; then the pose may have a rival.
+  void confirm(const Deadline &deadline, Work *work);
   // What the mirror image of the frame shows in the map of best(); good until the next search.
   const Hypothesis &findMirrored(const Deadline &deadline, Work *work);
 

@@ -47,7 +47,7 @@ class TrackToConfirmTest : public testing::Test {
   // Looks at the clock until the deadline; so many of them are all that a search takes.
   void confirmWithin(uint32_t looks) {
     work_ = {};
-    finder_.confirm(Known(), clock_.deadline(clock_.now_ns + clock_.step_ns * looks), &work_);
+    finder_.confirm(clock_.deadline(clock_.now_ns + clock_.step_ns * looks), &work_);
   }
   static constexpr uint32_t kAllLooks = 2000;
 
@@ -68,14 +68,14 @@ class TrackToConfirmTest : public testing::Test {
 
 TEST_F(TrackToConfirmTest, APoseThatTheWholeMapFindsTooStays) {
   find(kUpper);
-  finder_.confirm(Known(), Deadline(), &work_);
+  finder_.confirm(Deadline(), &work_);
   EXPECT_TRUE(best().isLocalized());
   EXPECT_FALSE(best().has_near_rival);
 }
 
 TEST_F(TrackToConfirmTest, OneOfTwoPlacesIsAmbiguous) {
   find(kLower);
-  finder_.confirm(Known(), Deadline(), &work_);
+  finder_.confirm(Deadline(), &work_);
   EXPECT_EQ(best().outcome, Outcome::kUncertain);
   EXPECT_TRUE(best().is_ambiguous);
 }
