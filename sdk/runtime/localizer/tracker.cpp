@@ -24,6 +24,10 @@ bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
          rotationAngle(step.rotation) < kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad);
 }
 
+double shiftSigmaOf(const Rigid &step, const Odometry &odometry) {
+  return hypotOf(odometry.translation_sigma_m, odometry.scale_sigma * step.translation_m.norm());
+}
+
 }  // namespace
 
 PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m, const PoseBounds &least) {
@@ -63,9 +67,7 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
     has_step_ = isOfHead(step_, step_ns_, *odometry);
   }
   if (has_step_)
-    steps_.push({step_, odometry->rotation_sigma_rad,
-                 hypotOf(odometry->translation_sigma_m, odometry->scale_sigma * step_.translation_m.norm())},
-                step_ns_);
+    steps_.push({step_, odometry->rotation_sigma_rad, shiftSigmaOf(step_, *odometry)}, step_ns_);
   else
     steps_.clear();
   for (CarriedPose *pose : {&last_, &best_}) {
@@ -257,7 +259,7 @@ bool Tracker::motion(const Trail &trail, Motion *motion) const {
     const Matrix3 map_from_camera = motion->camera_from_map.rotation.transpose();
     motion->step = {secondsOf(step_ns_), -(map_from_camera * vectorFromRotation(step_.rotation)),
                     -(map_from_camera * step_.translation_m),
-                    diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m), is_found ? 0.0 : 1.0};
+                    diagonalOf(odometry_.rotation_sigma_rad, shiftSigmaOf(step_, odometry_)), is_found ? 0.0 : 1.0};
   }
   return true;
 }

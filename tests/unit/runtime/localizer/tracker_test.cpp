@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/stages/pose/confidence.h"
 #include "tests/support/arena_memory.h"
 #include "tests/support/random_numbers.h"
 
@@ -601,6 +602,17 @@ TEST_F(TrackerTest, MotionIsThatOfOdometryWhereThereIsOne) {
   const Rigid expected = walked(6) * (walked(2).inverse() * off * walked(2));
   EXPECT_LT(rotationAngle(moved.camera_from_map.rotation * expected.rotation.transpose()), 1e-8);
   EXPECT_LT((moved.camera_from_map.translation_m - expected.translation_m).norm(), 1e-3);
+}
+
+TEST_F(TrackerTest, AScaleOfOdometryThatIsUnsureIsInTheStep) {
+  Odometry odometry = {poseAt(0), 1e-3, 2e-3};
+  bring(kFrame, poseAt(0), 0, &odometry);
+  odometry = {poseAt(0.03), 1e-3, 2e-3};
+  odometry.scale_sigma = 0.1;
+  bring(2 * kFrame, poseAt(-0.03), 0, &odometry);
+  Motion motion;
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
+  EXPECT_NEAR(axisSigma(motion.step.covariance, 3), std::hypot(2e-3, 0.1 * 0.03), 1e-9);
 }
 
 TEST_F(TrackerTest, MotionBesideAFrameIsThatOfTheStep) {
