@@ -20,10 +20,10 @@ inline Vector2 assumedRay(const Vector2 &ray, const double *lens) {
 // d(depth along the ray) / d(mount).  A shift along the optical axis is not told from an offset of the depths.
 Vector5 depthByMount(const SeenPoint &seen);
 
-// Depth that lies on the colour image: one camera, which is where the other is.
-bool isRegistered(const sphc_rig &rig);
+// Depth that lies on the colour image, be it of another size: both cameras see along the same rays.
+bool haveSameRays(const sphc_rig &rig);
 
-// The calibration after the change.  Both cameras change where the depth is registered; else the colour camera and
+// The calibration after the change.  Both cameras change where they have the same rays; else the colour camera and
 // color_from_depth do.
 sphc_rig changedBy(const CalibrationChange &change, const sphc_rig &rig);
 

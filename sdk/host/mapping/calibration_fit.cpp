@@ -17,7 +17,7 @@ CalibrationChange sum(const CalibrationChange &first, const CalibrationChange &s
 CalibrationFit fitCalibration(const sphc_rig &given, const ReadTrial &read, const MappingOptions &mapping,
                               const MappingProgress &progress) {
   CalibrationFit fit;
-  const bool is_apart = !isRegistered(given);
+  const bool is_apart = !haveSameRays(given);
   MappingOptions options = mapping;
   options.lens_is_free = true;
   options.mount_is_free = is_apart;

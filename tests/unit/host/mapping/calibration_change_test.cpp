@@ -32,10 +32,24 @@ TEST(CalibrationChangeTest, PixelsOfTheChangedCameraAreTheAssumedRaysOfTheOther)
   }
 }
 
+// As of a telephone: depth of a quarter of the size.
+TEST(CalibrationChangeTest, SmallerDepthKeepsLyingOnTheImage) {
+  sphc_rig rig = spottedRig();
+  rig.depth_camera.width /= 4;
+  rig.depth_camera.height /= 4;
+  for (int i = 0; i < 4; ++i) rig.depth_camera.params[i] /= 4;
+  EXPECT_TRUE(haveSameRays(rig));
+  const sphc_rig changed = changedBy(someChange(), rig);
+  EXPECT_TRUE(haveSameRays(changed));
+  EXPECT_NEAR(changed.depth_camera.params[0], 1.01 * rig.depth_camera.params[0], 1e-9);
+  rig.depth_camera.params[2] += 0.5;
+  EXPECT_FALSE(haveSameRays(rig));
+}
+
 TEST(CalibrationChangeTest, RegisteredDepthKeepsLyingOnTheImage) {
-  EXPECT_TRUE(isRegistered(spottedRig()));
-  EXPECT_TRUE(isRegistered(changedBy(someChange(), spottedRig())));
-  EXPECT_FALSE(isRegistered(apart()));
+  EXPECT_TRUE(haveSameRays(spottedRig()));
+  EXPECT_TRUE(haveSameRays(changedBy(someChange(), spottedRig())));
+  EXPECT_FALSE(haveSameRays(apart()));
 }
 
 // A plane that moves with the depth sensor meets the ray where the derivatives say.
