@@ -54,6 +54,11 @@ double medianDisagreement(const std::vector<DepthViews> &recordings, const std::
 
 enum class Verdict : uint8_t { kStays, kSeenThrough, kWithinReach, kGone };
 
+struct Judgement {
+  Verdict verdict;
+  bool is_seen_later;  // do the views of a later recording say something of its place?
+};
+
 // What the views of a recording say of a point.
 struct Votes {
   uint32_t confirmed = 0, confirmed_elsewhere = 0, contradicted = 0;
@@ -74,7 +79,7 @@ class Judge {
         down_(downByCameras(cameraFromWorld(recordings))),
         margin_per_m_(std::max(kMarginPerM, kMarginOfDisagreement * disagreement)) {}
 
-  Verdict judge(const TrackedPoint &tracked) const {
+  Judgement judge(const TrackedPoint &tracked) const {
     const Vector3 *holder_m = holderNear(tracked);
     std::vector<Votes> votes;
     bool is_confirmed_elsewhere = false;
@@ -82,10 +87,13 @@ class Judge {
       votes.push_back(votesOf(views, tracked, holder_m));
       is_confirmed_elsewhere = is_confirmed_elsewhere || votes.back().confirmed_elsewhere > 0;
     }
-    if (isGone(votes, tracked.recording)) return Verdict::kGone;
+    const bool is_seen_later =
+        std::any_of(votes.begin() + tracked.recording + 1, votes.end(),
+                    [](const Votes &later) { return later.confirmed + later.contradicted >= kAgainAndAgain; });
+    if (isGone(votes, tracked.recording)) return {Verdict::kGone, is_seen_later};
     // What an earlier recording saw there says nothing of a thing that is new.
-    if (votes[tracked.recording].areAgainst()) return Verdict::kSeenThrough;
-    return holder_m && !is_confirmed_elsewhere ? Verdict::kWithinReach : Verdict::kStays;
+    if (votes[tracked.recording].areAgainst()) return {Verdict::kSeenThrough, is_seen_later};
+    return {holder_m && !is_confirmed_elsewhere ? Verdict::kWithinReach : Verdict::kStays, is_seen_later};
   }
 
  private:
@@ -141,14 +149,19 @@ double shareSeen(const std::vector<TrackedPoint> &points, const std::vector<Verd
   return seen / total;
 }
 
+// Takes the verdict back.  Returns how many points it meets then.
+uint32_t keepAll(Verdict verdict, std::vector<Verdict> *verdicts) {
+  std::replace(verdicts->begin(), verdicts->end(), verdict, Verdict::kStays);
+  return 0;
+}
+
 // Takes the verdict back where it meets too much of what was seen; else says how many points it meets.
 uint32_t settle(const std::vector<TrackedPoint> &points, Verdict verdict, const char *why,
                 std::vector<Verdict> *verdicts, MovingSummary *summary) {
   const double share = shareSeen(points, *verdicts, verdict);
   if (share <= kMostDropped) return static_cast<uint32_t>(std::count(verdicts->begin(), verdicts->end(), verdict));
-  std::replace(verdicts->begin(), verdicts->end(), verdict, Verdict::kStays);
   summary->doubts.push_back(percent(share) + why);
-  return 0;
+  return keepAll(verdict, verdicts);
 }
 
 constexpr char kNoMovement[] =
@@ -185,14 +198,21 @@ MovingSummary dropMoving(const std::vector<DepthViews> &views, std::vector<Track
   }
   const Judge judge(views, summary.disagreement);
   std::vector<Verdict> verdicts;
-  for (const TrackedPoint &point : *points) verdicts.push_back(judge.judge(point));
+  size_t seen_later = 0;
+  for (const TrackedPoint &point : *points) {
+    const Judgement judgement = judge.judge(point);
+    verdicts.push_back(judgement.verdict);
+    seen_later += judgement.is_seen_later;
+  }
   summary.seen_through = settle(*points, Verdict::kSeenThrough, kNoMovement, &verdicts, &summary);
   summary.within_reach = settle(*points, Verdict::kWithinReach, kAllIsNear, &verdicts, &summary);
   summary.gone = settle(*points, Verdict::kGone, kMostIsGone, &verdicts, &summary);
-  if (summary.seen_through + summary.within_reach + summary.gone <
-      kLeastDropped * static_cast<double>(points->size())) {
-    summary.seen_through = summary.within_reach = summary.gone = 0;
-    return summary;
+  // A later recording may show a corner of a large place.
+  if (summary.gone < kLeastDropped * static_cast<double>(seen_later))
+    summary.gone = keepAll(Verdict::kGone, &verdicts);
+  if (summary.seen_through + summary.within_reach < kLeastDropped * static_cast<double>(points->size())) {
+    summary.seen_through = keepAll(Verdict::kSeenThrough, &verdicts);
+    summary.within_reach = keepAll(Verdict::kWithinReach, &verdicts);
   }
   size_t kept = 0;
   for (size_t i = 0; i < points->size(); ++i)

@@ -204,6 +204,19 @@ TEST(MovingThings, WhatALaterRecordingSeesThroughIsGoneAndWhatItShowsIsNew) {
   }
 }
 
+TEST(MovingThings, WhatIsGoneFromOneCornerOfALargePlaceIsGone) {
+  RecordedRoom recording;
+  for (int i = 0; i < 3; ++i) recording.seeFrom(standing({0.1 * i - 0.1, 0, 0}, 0), {kSomebody});
+  for (int i = 0; i < 60; ++i) recording.seeFrom(standing({0.01 * i, 0, 0}, kPi), {kSomebody});
+  recording.beginAnother();
+  for (int i = 0; i < 4; ++i) recording.seeFrom(standing({0.2 * i - 0.4, 0, 0}, 0), {});
+  const size_t on_somebody = recording.pointsOn(kSomebody);
+  ASSERT_GT(on_somebody, 20u);
+  ASSERT_LT(on_somebody, recording.points() / 100);
+  EXPECT_EQ(recording.drop().gone, on_somebody);
+  EXPECT_EQ(recording.pointsOn(kSomebody), 0u);
+}
+
 // The first day's view says nothing of what came later, and two views of a day are too few.
 TEST(MovingThings, OnlyLaterRecordingsTakeAwayAndNotByTwoViews) {
   for (bool is_first : {false, true}) {
