@@ -10,6 +10,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/number_checks.h"
+#include "host/cli/common/point_source.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/field_warnings.h"
@@ -101,6 +102,7 @@ void drawAdvice(const std::string &path, const Advice &advice) {
 }
 
 int run(const AdviseOptions &options, const Console &console) {
+  checkMappingOptions(options.advice.import);
   FileUse files(options.force);
   files.reads(options.recording);
   files.writes("--picture", options.picture, holds(kPictureMark));
@@ -146,6 +148,7 @@ Command adviseCommand(CLI::App *root) {
   app->description("Look at a recording before its map is released.\n\n" + std::string(kAdviseHelp));
   app->footer(kAdviseExample);
   addRecordingOptions(app, &options->recording);
+  addDepthRangeOptions(app, &options->advice.import.depth_min_m, &options->advice.import.depth_max_m);
   app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
       ->capture_default_str()
       ->transform(wholeFrom(2, 100));

@@ -7,6 +7,7 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/point_source.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/guide/guide_words.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct GuideOptions {
   RecordingOptions recording;
+  WalkGuide::Options guide;
   bool score = false;
 };
 
@@ -42,9 +44,10 @@ void lookAt(const sphc_localizer_frame &images, const GuideOptions &options, con
 
 int run(const GuideOptions &options, const Console &console) {
   if (options.score && !console.json) throw UsageError("--score is of the lines of --json; give that too");
+  checkDepthRange(options.guide.depth_min_m, options.guide.depth_max_m);
   const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
-  WalkGuide guide(reader->calibration());
+  WalkGuide guide(reader->calibration(), options.guide);
   LookPace pace;
   uint32_t unreadable = 0, looked_at = 0;
   std::string why, first_why;
@@ -80,6 +83,7 @@ Command guideCommand(CLI::App *root) {
       "stretches will be hard to map; with --json\na line of JSON for each frame that is looked at too.");
   app->footer("Example:\n  spherecloud guide --recording walk.mcap");
   addRecordingOptions(app, &options->recording);
+  addDepthRangeOptions(app, &options->guide.depth_min_m, &options->guide.depth_max_m);
   app->add_flag("--score", options->score, "With --json: compare loops with the recording's own poses");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

@@ -67,6 +67,15 @@ std::string whyNoModel(const MapOutcome &outcome) {
          "where there is much to see, or choose the frames of the part that is worth a map by --first and --last";
 }
 
+// `build` of the recording would refuse it, and of the model it could not know.
+void checkContradictions(const MapOptions &options, const MapOutcome &outcome) {
+  if (outcome.import.contradictions.empty()) return;
+  std::string why;
+  for (const std::string &contradiction : outcome.import.contradictions) why += "\n  " + contradiction;
+  throw std::runtime_error("this walk contradicts itself:" + why + "\n" + options.model +
+                           " was written all the same. Do not publish it: correct the recording, and map it again");
+}
+
 // Writes the calibration that the walk agrees with best; the map is then made with it.  How far it moved pixels.
 CalibrationDifference refine(MapOptions *options, const Console &console) {
   const RefinedCalibration refined = refineCalibration(*options);
@@ -125,6 +134,7 @@ int run(const CLI::App &app, MapOptions options, const Console &console) {
   if (why_none.empty()) writeFiles(options, outcome);  // before words, whose reader may be gone
   tellOfMap(options, outcome, console);
   if (!why_none.empty()) throw std::runtime_error(why_none);
+  checkContradictions(options, outcome);
   tellOfFiles(options, outcome, console);
   console.give(resultJson(options, outcome, refined));
   return outcome.isApart() ? kExitWalkApart : kExitDone;

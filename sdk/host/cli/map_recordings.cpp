@@ -3,6 +3,7 @@
 #include <chrono>
 #include <ctime>
 #include <memory>
+#include <numeric>
 
 #include "host/base/usage_error.h"
 #include "host/cli/common/progress.h"
@@ -98,6 +99,9 @@ std::vector<MappedRecording> openAll(const MapOptions &options) {
     recordings[i].told = recording::readTumPoses(options.told[i], &recordings[i].bad_told);
   if (options.trust.use != PoseUse::kNone)
     for (MappedRecording &recording : recordings) recording.is_told = hasToldPose(options, recording);
+  uint64_t frames = 0;
+  for (const MappedRecording &recording : recordings) frames += recording.reader->frameCount();
+  checkObservations(options.import, frames);
   return recordings;
 }
 
@@ -199,6 +203,19 @@ ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) 
   return points;
 }
 
+// Where nothing agrees, what was measured of the frames may tell why.
+MappedWalk mapOrSayWhy(const MapOptions &options, MapOutcome *outcome, Steps *steps, const Console &console) {
+  try {
+    return mapWalk(outcome->walk, options.mapping(), steps->progress());
+  } catch (const NothingAgrees &) {
+    std::vector<uint32_t> each_apart(outcome->walk.keyframes.size());
+    std::iota(each_apart.begin(), each_apart.end(), 0);
+    outcome->stretches = stretchesOf(outcome->walk, each_apart, FramePoses(each_apart.size()));
+    noteStretchesLeftOut(*outcome, console);
+    throw;
+  }
+}
+
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -216,7 +233,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
-  outcome.mapped = mapWalk(outcome.walk, options.mapping(), steps.progress());
+  outcome.mapped = mapOrSayWhy(options, &outcome, &steps, console);
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   takePoses(&outcome);
   standUpright(&outcome);

@@ -100,11 +100,7 @@ void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &c
                  " once more, slowly, in one recording with the rest." + causesOfPart(part));
 }
 
-void warnOfStretches(const MapOutcome &outcome, const Clock &clock, const Console &console) {
-  for (const Stretch &s : outcome.stretches.left_out) {
-    console.warn("note: left out: " + clock.timesOf({s}) + " (" + counted(s.frames, "frame") +
-                 "): " + causesText(causesOf(s)));
-  }
+void noteUnreadable(const MapOutcome &outcome, const Console &console) {
   if (outcome.walk.unreadable)
     console.warn("note: " + counted(outcome.walk.unreadable, "frame") +
                  " could not be read; the first: " + outcome.walk.first_fault);
@@ -275,11 +271,20 @@ std::vector<Row> mapTable(const MapOutcome &outcome) {
   return rows;
 }
 
+void noteStretchesLeftOut(const MapOutcome &outcome, const Console &console) {
+  const Clock clock(outcome);
+  for (const Stretch &s : outcome.stretches.left_out)
+    console.warn("note: left out: " + clock.timesOf({s}) + " (" + counted(s.frames, "frame") +
+                 "): " + causesText(causesOf(s)));
+}
+
 void warnOfMap(const MapOutcome &outcome, const Console &console) {
   const Clock clock(outcome);
   for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
+  for (const std::string &doubt : outcome.import.doubts) console.warn("Warning: " + doubt);
   warnOfTimes(outcome, console);
-  warnOfStretches(outcome, clock, console);
+  noteStretchesLeftOut(outcome, console);
+  noteUnreadable(outcome, console);
   warnOfResiduals(outcome, console);
   warnOfPoses(outcome, console);
   if (!outcome.vertical.doubt.empty())

@@ -47,6 +47,8 @@ struct MapOutcome {
 
 std::vector<Row> mapTable(const MapOutcome &outcome);
 void warnOfMap(const MapOutcome &outcome, const Console &console);
+// Which stretches have no place, and what was measured there.
+void noteStretchesLeftOut(const MapOutcome &outcome, const Console &console);
 nlohmann::ordered_json mapJson(const MapOutcome &outcome);
 
 }  // namespace sphc::host

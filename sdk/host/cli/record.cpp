@@ -13,6 +13,7 @@
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/new_recording.h"
 #include "host/cli/common/number_checks.h"
+#include "host/cli/common/point_source.h"
 #include "host/cli/common/recording_out.h"
 #include "host/cli/common/rig_options.h"
 #include "host/cli/record_guide.h"
@@ -30,6 +31,7 @@ struct RecordOptions {
   std::string out;
   double seconds = 0;
   bool guide = false;
+  WalkGuide::Options guided;
   sphc_recorder_config recorder = {};
 };
 
@@ -140,6 +142,7 @@ void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *ri
 
 int run(const RecordOptions &options, const Console &console) {
   checkRigOptions(options.rig);
+  checkDepthRange(options.guided.depth_min_m, options.guided.depth_max_m);
   if (!isMcap(options.out)) throw UsageError("--out: the file's name must end with .mcap: " + options.out);
   FileUse files(false);
   files.reads(options.rig);
@@ -159,7 +162,8 @@ int run(const RecordOptions &options, const Console &console) {
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   noteWhatStays(rig, console);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
-  const auto guide = options.guide ? std::make_unique<RecordGuide>(calibration, rig.waits(), console) : nullptr;
+  const auto guide =
+      options.guide ? std::make_unique<RecordGuide>(calibration, options.guided, rig.waits(), console) : nullptr;
   if (guide) std::signal(SIGPIPE, SIG_IGN);  // a recording outlives the program that reads the advice
   const Interrupt interrupt;                 // from before there is a file
   NewRecording recording(options.out, NewRecording::IfCut::kKeep);
@@ -209,9 +213,12 @@ Command recordCommand(CLI::App *root) {
   app->footer(kRecordExample);
   addRigOptions(app, &options->rig);
   app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
-  app->add_flag("--guide", options->guide,
-                "Say on the way what to do, so that `map` can make a map of the walk; with --json a line for each "
-                "frame it sees");
+  CLI::Option *guide = app->add_flag(
+      "--guide", options->guide,
+      "Say on the way what to do, so that `map` can make a map of the walk; with --json a line for each "
+      "frame it sees");
+  for (CLI::Option *option : addDepthRangeOptions(app, &options->guided.depth_min_m, &options->guided.depth_max_m))
+    option->needs(guide);
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")

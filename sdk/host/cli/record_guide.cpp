@@ -4,9 +4,10 @@
 
 namespace sphc::host {
 
-RecordGuide::RecordGuide(const sphc_rig &calibration, bool may_wait, const Console &console)
+RecordGuide::RecordGuide(const sphc_rig &calibration, const WalkGuide::Options &options, bool may_wait,
+                         const Console &console)
     : may_wait_(may_wait),
-      guide_(calibration),
+      guide_(calibration, options),
       thread_([this, console](const sphc_localizer_frame &frame) { look(frame, console); }) {}
 
 void RecordGuide::look(const sphc_localizer_frame &frame, const Console &console) {

@@ -14,7 +14,8 @@ namespace sphc::host {
 class RecordGuide {
  public:
   // `may_wait`: frames wait in the cameras, so none is lost when the guide is behind.
-  RecordGuide(const sphc_rig &calibration, bool may_wait, const Console &console);
+  RecordGuide(const sphc_rig &calibration, const WalkGuide::Options &options, bool may_wait,
+              const Console &console);
 
   // Never waits for the guide otherwise.
   void see(const CapturePair &pair);

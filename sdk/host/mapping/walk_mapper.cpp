@@ -35,7 +35,7 @@ class WalkMapper {
     if (options_.trust.use == PoseUse::kApproximate)
       addLinks("looking where poses tell", pairsByOverlap(frames_, beliefs_.told(), tried_), kLoops, nullptr);
     if (links_.empty())
-      throw std::runtime_error(
+      throw NothingAgrees(
           "no two frames of the walk agree on how they lie to each other: are the images sharp, does depth lie on "
           "them (spherecloud doctor), and are the frames near enough in time to show the same?");
     mapped_.contradicting = dropWeakBridges(frames_.size(), &links_);

@@ -1,5 +1,6 @@
 // From a walk to a pose for each of its frames.
 #pragma once
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,12 @@ struct MappedWalk {
   bool is_unbelieved = false;
 };
 
+class NothingAgrees : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws NothingAgrees where no two frames do, and std::runtime_error otherwise, with cause and cure.
 MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress);
 
 }  // namespace sphc::host

@@ -148,10 +148,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                                 const std::string &selection, const Interrupt *interrupt) {
   uint32_t frames = 0;
   for (const RgbdSource &source : recordings) frames += source.reader->frameCount();
-  if (options.min_observations > frames)
-    throw UsageError("--min-observations " + std::to_string(options.min_observations) +
-                     ": no point can be seen in so many of " + counted(frames, "frame") +
-                     "; give a smaller number");
+  checkObservations(options, frames);
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
@@ -187,6 +184,17 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   return imported;
 }
 
+std::array<CLI::Option *, 2> addDepthRangeOptions(CLI::App *app, double *depth_min_m, double *depth_max_m) {
+  return {app->add_option("--depth-min", *depth_min_m, "Nearest depth used, metres")
+              ->capture_default_str()
+              ->check(between(0.01, 100))
+              ->group(kMappingGroup),
+          app->add_option("--depth-max", *depth_max_m, "Farthest depth used, metres")
+              ->capture_default_str()
+              ->check(notNegative())
+              ->group(kMappingGroup)};
+}
+
 void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
   app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
       ->capture_default_str()
@@ -196,14 +204,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->capture_default_str()
       ->transform(wholeFrom(1, kMostObservations))
       ->group(kMappingGroup);
-  app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
-      ->capture_default_str()
-      ->check(between(0.01, 100))
-      ->group(kMappingGroup);
-  app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
-      ->capture_default_str()
-      ->check(notNegative())
-      ->group(kMappingGroup);
+  addDepthRangeOptions(app, &import->depth_min_m, &import->depth_max_m);
   addRowTimeOption(app, &import->row_time_ns, "needs poses (map: frames) at 20 Hz or more; tell it to localize too")
       ->group(kMappingGroup);
   app->add_flag("--keep-moving", import->keep_moving,
@@ -223,9 +224,20 @@ void addPointSourceOptions(CLI::App *app, PointSource *source) {
     option->excludes(model)->excludes(app->get_option("--colmap"));  // these have their points already
 }
 
-void checkMappingOptions(const RgbdImportOptions &import) {
-  if (import.depth_min_m >= import.depth_max_m)
+void checkDepthRange(double depth_min_m, double depth_max_m) {
+  if (depth_min_m >= depth_max_m)
     throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
+}
+
+void checkMappingOptions(const RgbdImportOptions &import) {
+  checkDepthRange(import.depth_min_m, import.depth_max_m);
+}
+
+void checkObservations(const RgbdImportOptions &import, uint64_t frames) {
+  if (import.min_observations > frames)
+    throw UsageError("--min-observations " + std::to_string(import.min_observations) +
+                     ": no point can be seen in so many of " + counted(frames, "frame") +
+                     "; give a smaller number");
 }
 
 void checkPointSource(const PointSource &source) {

@@ -1,5 +1,6 @@
 // Where a map's points come from: a recording, a COLMAP model, or a point model that was saved.
 #pragma once
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/common/console.h"
@@ -20,6 +21,8 @@ struct PointSource {
 void addPointSourceOptions(CLI::App *app, PointSource *source);
 // Those of a recording alone: how its frames become points.
 void addMappingOptions(CLI::App *app, RgbdImportOptions *import);
+// Which depths count, metres.  Returns the options.
+std::array<CLI::Option *, 2> addDepthRangeOptions(CLI::App *app, double *depth_min_m, double *depth_max_m);
 
 struct ImportedPoints {
   PointModel model;
@@ -30,10 +33,13 @@ struct ImportedPoints {
   nlohmann::ordered_json facts;             // for --json
 };
 // Throw UsageError for options that make no sense together.
+void checkDepthRange(double depth_min_m, double depth_max_m);
 void checkMappingOptions(const RgbdImportOptions &import);
 void checkPointSource(const PointSource &source);
 // Of a source that passed the check.  Throws std::runtime_error with cause and cure, and where a signal came.
 ImportedPoints importPoints(const PointSource &source, const Interrupt &interrupt, const Console &console);
+// Throws UsageError where so many frames cannot agree on a point as are to.
+void checkObservations(const RgbdImportOptions &import, uint64_t frames);
 // Of recordings that are open, the oldest first; `selection` says which of their frames (describeSelection()).
 // `interrupt`: ends it too; may be null.
 ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
