@@ -23,7 +23,7 @@ using ::testing::ValuesIn;
 constexpr uint32_t kTimeoutUs = 20000;
 constexpr auto kPatience = std::chrono::seconds(10);  // for a capture to come at all
 
-// The consumer sets struct_size; a driver may insist on it.
+// The consumer sets struct_size; a driver insists on it.
 sphc_capture emptyCapture() {
   sphc_capture capture{};
   capture.struct_size = sizeof capture;
@@ -399,6 +399,21 @@ TEST_P(DriverContract, RefusesANullCapture) {
   ASSERT_EQ(start(), SPHC_OK);
   EXPECT_EQ(opened_.source.acquire(opened_.source.self, 0, nullptr), SPHC_E_ARGUMENT);
   EXPECT_STRNE(message(), "");
+}
+
+// Another header's sphc_capture may be smaller than what the driver would write.
+TEST_P(DriverContract, RefusesACaptureOfAnotherSize) {
+  ASSERT_EQ(start(), SPHC_OK);
+  constexpr uint32_t kBytes = sizeof(sphc_capture);
+  for (const uint32_t struct_size : {0u, kBytes - 8, kBytes + 8}) {
+    sphc_capture capture;
+    std::memset(&capture, 0x5a, sizeof capture);
+    capture.struct_size = struct_size;
+    const sphc_capture before = capture;
+    EXPECT_EQ(opened_.source.acquire(opened_.source.self, 0, &capture), SPHC_E_STRUCT_SIZE) << struct_size;
+    EXPECT_STRNE(message(), "");
+    EXPECT_EQ(std::memcmp(&capture, &before, sizeof capture), 0) << struct_size;
+  }
 }
 
 TEST_P(DriverContract, EndsOnceAllAreGivenAndStartsFromTheBeginning) {

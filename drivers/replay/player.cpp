@@ -108,6 +108,8 @@ sphc_status acquireFromPlayer(void *self, uint32_t timeout_us, sphc_capture *cap
   if (!self) return SPHC_E_ARGUMENT;
   return guarded(playerOf(self)->messageRoom(), [&] {
     if (!capture) throw Failure(SPHC_E_ARGUMENT, "acquire: capture is null; give one");
+    if (capture->struct_size != sizeof *capture)
+      throw Failure(SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
     return playerOf(self)->acquire(timeout_us, *capture);
   });
 }

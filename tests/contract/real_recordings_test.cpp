@@ -60,7 +60,8 @@ uint32_t countCaptures(const OpenReplay &replay) {
   EXPECT_EQ(source.start(source.self), SPHC_OK);
   uint32_t count = 0;
   int64_t last_ns = INT64_MIN;
-  sphc_capture capture;
+  sphc_capture capture = {};
+  capture.struct_size = sizeof capture;
   while (source.acquire(source.self, 0, &capture) == SPHC_OK) {
     EXPECT_GE(capture.time_ns, last_ns);
     last_ns = capture.time_ns;

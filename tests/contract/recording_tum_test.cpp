@@ -252,7 +252,8 @@ TEST_F(Tum, ChoosesFramesByTheirPlaceAndDepthWithThem) {
   sphc_replay_source(replay.get(), &source);
   ASSERT_EQ(source.start(source.self), SPHC_OK);
   for (uint32_t i = 0; i < 6; ++i) {
-    sphc_capture capture;
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
     ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
     EXPECT_EQ(capture.sequence, 1 + i / 2 * 2);
     EXPECT_EQ(capture.stream, i % 2 == 0 ? SPHC_STREAM_COLOR : SPHC_STREAM_DEPTH);
@@ -267,7 +268,8 @@ TEST_F(Tum, GoesOnBehindAMissingImage) {
   sphc_replay_source(replay.get(), &source);
   ASSERT_EQ(source.start(source.self), SPHC_OK);
   for (uint32_t i = 0; i < 12; ++i) {
-    sphc_capture capture;
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
     const sphc_status status = source.acquire(source.self, 0, &capture);
     ASSERT_EQ(status, i == 3 ? SPHC_E_DEVICE : SPHC_OK) << i;
     if (i == 3) {
@@ -275,7 +277,8 @@ TEST_F(Tum, GoesOnBehindAMissingImage) {
     }
     if (status == SPHC_OK) source.release(source.self, &capture);
   }
-  sphc_capture capture;
+  sphc_capture capture = {};
+  capture.struct_size = sizeof capture;
   EXPECT_EQ(source.acquire(source.self, 0, &capture), SPHC_END);
 }
 

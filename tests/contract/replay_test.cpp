@@ -119,12 +119,14 @@ TEST_F(Replay, GivesTheChosenStreamOnly) {
   ASSERT_EQ(sphc_replay_source(replay.get(), &source), SPHC_OK);
   ASSERT_EQ(source.start(source.self), SPHC_OK);
   for (uint32_t i = 0; i < 4; ++i) {
-    sphc_capture capture;
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
     ASSERT_EQ(source.acquire(source.self, 0, &capture), SPHC_OK);
     EXPECT_EQ(capture.stream, SPHC_STREAM_DEPTH);
     EXPECT_EQ(capture.time_ns, kFirstNs + i * kPeriodNs + kDepthLagNs);
   }
-  sphc_capture capture;
+  sphc_capture capture = {};
+  capture.struct_size = sizeof capture;
   EXPECT_EQ(source.acquire(source.self, 0, &capture), SPHC_END);
 }
 
@@ -137,7 +139,8 @@ TEST_F(Replay, KeepsTheRecordedPaceInRealTime) {
   const Clock::time_point begin = Clock::now();
   ASSERT_EQ(source.start(source.self), SPHC_OK);
   for (uint32_t i = 0; i < 4; ++i) {
-    sphc_capture capture;
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
     sphc_status status = SPHC_AGAIN;
     while ((status = source.acquire(source.self, 1000, &capture)) == SPHC_AGAIN) continue;
     ASSERT_EQ(status, SPHC_OK);
@@ -160,7 +163,8 @@ class LateImage {
     for (int image = 0; image < 2; ++image) EXPECT_EQ(acquire(0), SPHC_OK);
   }
   sphc_status acquire(uint32_t timeout_us) {
-    sphc_capture capture;
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
     return source_.acquire(source_.self, timeout_us, &capture);
   }
 
