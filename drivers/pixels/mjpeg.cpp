@@ -3,6 +3,7 @@
 #include <turbojpeg.h>
 
 #include <cstring>
+#include <initializer_list>
 
 #include "explain.h"
 
