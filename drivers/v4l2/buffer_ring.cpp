@@ -42,8 +42,9 @@ sphc_status BufferRing::make(uint32_t wanted, uint32_t least, uint32_t bytes, bo
     return node_.explain(message, "VIDIOC_REQBUFS", error);
   is_requested_ = true;
   if (request.count < least)
-    return explain(message, SPHC_E_DEVICE, "%s gave %u buffers of the %u asked for; loan_limit needs %u: lower it",
-                   node_.path(), request.count, wanted, least);
+    return explain(message, SPHC_E_DEVICE, "%s gave %u buffers of the %u asked for, and %u are needed; %s",
+                   node_.path(), request.count, wanted, least,
+                   export_dmabuf ? "lower loan_limit or set export_dmabuf to 0" : "use another camera");
   const uint32_t count = std::min(request.count, SPHC_V4L2_MAX_BUFFERS);
   for (uint32_t i = 0; i < count; ++i) {
     buffers_[i].dmabuf = -1;

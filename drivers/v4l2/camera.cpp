@@ -18,7 +18,8 @@ namespace {
 
 using pixels::explain;
 
-constexpr int kMaxRounds = 64;  // of waiting within one acquire, should a device wake us for nothing
+constexpr uint32_t kLeastBuffers = 2;  // one to fill while the other is read
+constexpr int kMaxRounds = 64;         // of waiting within one acquire, should a device wake us for nothing
 
 int64_t periodNs(const Mode &mode) {
   return mode.period_denominator ? int64_t{mode.period_numerator} * 1000000000 / mode.period_denominator : 0;
@@ -53,10 +54,11 @@ sphc_status Camera::open(const char *path, const sphc_v4l2_config &config, sphc_
                                                  : "cannot stream, only read(); not supported");
   sphc_status status = negotiate(node_, config_, &mode_, message);
   if (status < 0) return status;
-  status =
-      ring_.make(config_.buffers, config_.loan_limit + 1, mode_.buffer_bytes, config_.export_dmabuf != 0, message);
+  const uint32_t least = config_.export_dmabuf ? config_.loan_limit + 1 : kLeastBuffers;
+  status = ring_.make(config_.buffers, least, mode_.buffer_bytes, config_.export_dmabuf != 0, message);
   if (status < 0) return status;
-  is_zero_copy_ = !config_.always_copy && isReadyMade(mode_, config_.format);
+  const bool can_lend = ring_.count() > config_.loan_limit;  // and the device still has one to fill
+  is_zero_copy_ = can_lend && !config_.always_copy && isReadyMade(mode_, config_.format);
   subscribeEvents(node_);
   return makeSlots(message);
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "opened_camera.h"
 
@@ -117,20 +118,55 @@ TEST(Open, RefusesNodesThatCaptureNothingItCanTake) {
   }
 }
 
-TEST(Open, TakesFewerBuffersAsLongAsTheLoansFit) {
-  for (const uint32_t most : {3u, 4u}) {
-    test::FakeKernel kernel;
-    test::FakeCamera fake = colorCamera();
-    fake.most_buffers = most;
-    kernel.plugIn(0, std::move(fake));
-    const OpenedCamera opened(kernel, configFor(SPHC_STREAM_COLOR));  // 6 asked for, 3 loans
-    EXPECT_EQ(opened.status, most == 4 ? SPHC_OK : SPHC_E_DEVICE);
-    if (opened.handle) {
-      EXPECT_EQ(opened.mode().buffers, 4u);
-    } else {
-      EXPECT_THAT(opened.message.text, HasSubstr("gave 3 buffers of the 6 asked for; loan_limit needs 4"));
-    }
+// A camera that makes `most` buffers of the 6 asked for; 3 loans.
+test::FakeCamera withBuffers(uint32_t most, test::FakeCamera fake) {
+  fake.most_buffers = most;
+  return fake;
+}
+
+// Three images at once; those of depth keep the pixels of their own frames.
+void expectAllLoans(RunningCamera &running) {
+  const sphc_capture loans[] = {running.opened.take(), running.opened.take(), running.opened.take()};
+  sphc_capture none;
+  EXPECT_EQ(running.opened.acquire(&none), SPHC_E_STATE);
+  for (const sphc_capture &loan : loans) {
+    if (loan.stream != SPHC_STREAM_DEPTH) continue;
+    std::vector<uint8_t> painted(loan.image.stride_bytes * kHeight);
+    test::paintPattern(loan.sequence, painted.data(), static_cast<uint32_t>(painted.size()));
+    EXPECT_EQ(std::memcmp(loan.image.data, painted.data(), painted.size()), 0) << loan.sequence;
   }
+}
+
+TEST(Open, TakesFewBuffersWhereImagesAreConverted) {
+  for (const uint32_t most : {2u, 3u, 4u}) {
+    RunningCamera running(withBuffers(most, colorCamera()), configFor(SPHC_STREAM_COLOR));
+    EXPECT_EQ(running.opened.mode().buffers, most);
+    expectAllLoans(running);
+  }
+}
+
+TEST(Open, CopiesWhereTheBuffersAreTooFewToLend) {
+  for (const uint32_t most : {2u, 3u, 4u}) {
+    RunningCamera running(withBuffers(most, depthCamera()), configFor(SPHC_STREAM_DEPTH));
+    EXPECT_EQ(running.opened.mode().buffers, most);
+    EXPECT_EQ(running.opened.mode().zero_copy, most == 4 ? 1u : 0u);
+    expectAllLoans(running);
+  }
+}
+
+TEST(Open, RefusesBuffersThatAreTooFew) {
+  sphc_v4l2_config config = configFor(SPHC_STREAM_DEPTH);
+  const auto refused = [&](uint32_t most) {
+    test::FakeKernel kernel;
+    kernel.plugIn(0, withBuffers(most, depthCamera()));
+    const OpenedCamera opened(kernel, config);
+    EXPECT_EQ(opened.status, SPHC_E_DEVICE);
+    return std::string(opened.message.text);
+  };
+  EXPECT_THAT(refused(1), HasSubstr("gave 1 buffers of the 6 asked for, and 2 are needed; use another camera"));
+  config.export_dmabuf = 1;
+  EXPECT_THAT(refused(3),
+              HasSubstr("gave 3 buffers of the 6 asked for, and 4 are needed; lower loan_limit or set"));
 }
 
 TEST(Open, SaysWhenDmabufsCannotBe) {
