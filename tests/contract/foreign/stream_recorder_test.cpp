@@ -203,5 +203,15 @@ TEST(StreamRecorderText, WhatIsWrongIsNamed) {
   EXPECT_EQ(recording::pvFileFrom(head + frame + "1326971").frames.size(), 1u) << "what a crash leaves behind";
 }
 
+TEST(StreamRecorderText, ACrashAmidALineOfRigPosesCostsThatLineAlone) {
+  const auto line = [](uint32_t i) { return std::to_string(kFirstTicks + i) + "," + matrixText(0.1 * i, 0, 0); };
+  const auto poses = [](const std::string &text) { return recording::rigTrackFrom(text).poses().size(); };
+  const std::string two = line(0) + "\n" + line(1), last = line(2);
+  EXPECT_EQ(poses(two), 2u) << "nothing but the end of the last line is missing";
+  for (const size_t bytes : {size_t{1}, size_t{17}, last.find(',') + 1, last.rfind(',')})
+    EXPECT_EQ(poses(two + "\n" + last.substr(0, bytes)), 2u) << last.substr(0, bytes);
+  EXPECT_THAT(refusal([&] { poses(two + "\n1326971\n"); }), HasSubstr("line 3: expected a time"));
+}
+
 }  // namespace
 }  // namespace sphc::contract

@@ -28,6 +28,9 @@ bool poseIn(const Fields &fields, size_t first, sphc_rigid &pose) {
   return host::rigidFromRows(matrix, &pose);
 }
 
+// What a crash leaves behind: a last line without its end, and with fewer fields than a line has.
+bool isCutOff(const Fields &fields, size_t whole, bool has_end) { return !has_end && fields.size() < whole; }
+
 // Time, focal lengths, world_from_camera with axes right, up, back.
 PvFrame pvFrameOf(const Fields &fields, uint32_t line, std::vector<double> (&focal)[2]) {
   PvFrame frame = {};
@@ -63,10 +66,10 @@ PvFile pvFileFrom(std::string_view text) {
     failLine(1, "expected the principal point and the size of the images");
   std::vector<double> focal[2];
   for (uint32_t number = 2; !text.empty(); ++number) {
-    const bool is_whole = text.find('\n') != std::string_view::npos;
+    const bool has_end = text.find('\n') != std::string_view::npos;
     const Fields fields = fieldsOf(takeLine(text));
     if (fields.size() == 1 && fields[0].empty()) continue;
-    if (!is_whole && fields.size() < 3 + kMatrixFields) break;  // what a crash leaves behind
+    if (isCutOff(fields, 3 + kMatrixFields, has_end)) break;
     PvFrame frame = pvFrameOf(fields, number, focal);
     if (!file.frames.empty() && frame.time_ns <= file.frames.back().time_ns)
       failLine(number, "time does not increase");
@@ -81,8 +84,10 @@ PoseTrack rigTrackFrom(std::string_view text) {
   PoseTrack track;
   int64_t last_ns = -1;
   for (uint32_t number = 1; !text.empty(); ++number) {
+    const bool has_end = text.find('\n') != std::string_view::npos;
     const Fields fields = fieldsOf(takeLine(text));
     if (fields.size() == 1 && fields[0].empty()) continue;
+    if (isCutOff(fields, 1 + kMatrixFields, has_end)) break;
     int64_t time_ns = 0;
     if (!parseTicks(fields[0], time_ns)) failLine(number, "expected a time");
     if (time_ns <= last_ns) failLine(number, "time does not increase");

@@ -28,7 +28,8 @@ struct PvFile {
 
 // Each throws Failure (ARGUMENT); its text begins with the line.
 PvFile pvFileFrom(std::string_view text);
-// SENSOR_rig2world.txt: world_from_rig at the times of the sensor's images; lines without a pose are left out.
+// SENSOR_rig2world.txt: world_from_rig at the times of the sensor's images; lines without a pose are left out, and
+// so is a last one that a crash cut off.
 PoseTrack rigTrackFrom(std::string_view text);
 // SENSOR_extrinsics.txt: sensor_from_rig.
 sphc_rigid sensorFromRigFrom(std::string_view text);
