@@ -193,6 +193,7 @@ sphc_status Camera::nextFilled(int64_t deadline_ns, FilledBuffer *filled) {
     const int error = ring_.dequeue(filled);
     if (error == 0 && round == 0 && !ring_.deviceHasRoom()) ++stats_.starved;
     if (error == 0) return SPHC_OK;
+    if (error == EIO && hasStreamEnded()) return checkAlive();
     if (error != EAGAIN) return failCall("VIDIOC_DQBUF", error);
     const sphc_status status = waitForFrame(deadline_ns);
     if (status != SPHC_OK) return status;
@@ -230,6 +231,13 @@ sphc_status Camera::takeNews() {
   explain(&loss_, SPHC_E_DEVICE_LOST, "%s: its signal has another size now; stop, close and open again",
           node_.path());
   return fail(SPHC_E_DEVICE_LOST, loss_.text);
+}
+
+// DQBUF says EIO of a stream that the kernel has given up, and does so until it is stopped; another EIO passes.
+bool Camera::hasStreamEnded() const {
+  pollfd file = {node_.fd(), POLLIN, 0};
+  const Syscalls &syscalls = node_.syscalls();
+  return syscalls.poll(syscalls.self, &file, 0) > 0 && (file.revents & POLLERR) != 0;
 }
 
 // After poll saw an error: unplugged, or a stream that the kernel has given up.

@@ -51,6 +51,7 @@ class Camera {
   sphc_status nextFilled(int64_t deadline_ns, FilledBuffer *filled);
   sphc_status waitForFrame(int64_t deadline_ns);
   sphc_status takeNews();
+  bool hasStreamEnded() const;
   sphc_status checkAlive();
   // False: the frame is no good; it was counted.
   bool takeFrame(const FilledBuffer &filled, Loan *loan, sphc_capture *capture);

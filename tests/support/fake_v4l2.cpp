@@ -123,6 +123,7 @@ int FakeCamera::queueBuffer(const v4l2_buffer &buffer) {
 
 int FakeCamera::dequeueBuffer(v4l2_buffer *buffer) {
   if (!is_streaming_) return EINVAL;
+  if (is_given_up) return EIO;
   if (done_.count == 0) return EAGAIN;
   Buffer &own = buffers_[done_.pop()];
   own.state = State::Free;
@@ -140,7 +141,7 @@ int FakeCamera::streamOn(int64_t now_ns) {
 }
 
 int FakeCamera::streamOff() {
-  is_streaming_ = false;
+  is_streaming_ = is_given_up = false;
   queued_.count = done_.count = 0;
   for (Buffer &buffer : buffers_) buffer.state = State::Free;
   return 0;
@@ -149,7 +150,7 @@ int FakeCamera::streamOff() {
 // ---- camera: exposing ------------------------------------------------------------------------------------------
 
 void FakeCamera::exposeUntil(int64_t now_ns) {
-  while (is_streaming_ && !is_stalled && next_frame_ns_ <= now_ns) {
+  while (is_streaming_ && !is_stalled && !is_given_up && next_frame_ns_ <= now_ns) {
     expose();
     next_frame_ns_ += kSecondNs / mode_.fps;
   }
@@ -449,7 +450,7 @@ int FakeKernel::poll(pollfd *polled, int64_t timeout_ns) {
     polled->revents = 0;
     if (camera.is_gone_)
       polled->revents = POLLERR | POLLHUP | POLLPRI;
-    else if (!camera.is_streaming_)
+    else if (!camera.is_streaming_ || camera.is_given_up)
       polled->revents = POLLERR;
     if (camera.done_.count > 0) polled->revents |= POLLIN;
     if (camera.event_count_ > 0) polled->revents |= POLLPRI;

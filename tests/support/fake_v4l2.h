@@ -65,6 +65,8 @@ class FakeCamera {
   std::function<void(FakeFrame &)> bend_frame = [](FakeFrame &) {};
   std::function<void(v4l2_buffer &)> bend_dequeued = [](v4l2_buffer &) {};
   bool is_stalled = false;
+  // As by vb2_queue_error: until stream-off, DQBUF is EIO whatever waits, and poll POLLERR.
+  bool is_given_up = false;
 
   FakeControl *findControl(uint32_t id);
   void pushEvent(uint32_t type, uint32_t id, uint32_t changes);

@@ -268,6 +268,25 @@ TEST(Fault, StreamGivenUpByTheKernelIsAnErrorAndCanBeStartedAgain) {
   running.opened.take();
 }
 
+TEST(Fault, StreamGivenUpByTheKernelSaysSoAtEveryAcquireUntilItIsStopped) {
+  RunningCamera running(depthCamera(), configFor(SPHC_STREAM_DEPTH));
+  for (const int64_t busy_ns : {int64_t{0}, 3 * kPeriodNs}) {
+    running.kernel.now_ns += busy_ns;
+    running.opened.release(running.opened.take());  // others wait behind it, and nobody gets those any more
+    running.camera->is_given_up = true;
+    const uint64_t errors = running.opened.stats().device_errors;
+    for (uint64_t i = 1; i <= 3; ++i) {
+      sphc_capture capture;
+      EXPECT_EQ(running.opened.acquire(&capture), SPHC_E_DEVICE);
+      EXPECT_THAT(running.opened.text(), HasSubstr("has stopped the stream after an error; stop and start"));
+      EXPECT_EQ(running.opened.stats().device_errors, errors + i);
+    }
+    running.opened.stop();
+    ASSERT_EQ(running.opened.start(), SPHC_OK);
+    running.opened.release(running.opened.take());
+  }
+}
+
 TEST(Fault, SignalOfAnotherSizeIsLost) {
   RunningCamera running(depthCamera(), configFor(SPHC_STREAM_DEPTH));
   running.opened.take();
