@@ -190,7 +190,9 @@ sphc_status Camera::nextFilled(int64_t deadline_ns, FilledBuffer *filled) {
   const sphc_status news = takeNews();
   if (news < 0) return news;
   for (int round = 0; round < kMaxRounds; ++round) {
+    const int64_t asked_ns = node_.nowNs();
     const int error = ring_.dequeue(filled);
+    if (error == EAGAIN) clock_.sawNoFrame(asked_ns);
     if (error == 0 && round == 0 && !ring_.deviceHasRoom()) ++stats_.starved;
     if (error == 0) return SPHC_OK;
     if (error == EIO && hasStreamEnded()) return checkAlive();

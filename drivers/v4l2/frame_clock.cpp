@@ -19,7 +19,7 @@ constexpr uint32_t kLeastSigmaUs = 1000;  // of any time that the host takes
 }  // namespace
 
 void FrameClock::restart(int64_t now_ns, int64_t period_ns) {
-  start_ns_ = now_ns;
+  start_ns_ = no_frame_ns_ = now_ns;
   period_ns_ = period_ns > 0 ? std::min(period_ns, kMaxPeriodNs) : kUnknownPeriodNs;
   if (last_ns_ > now_ns) last_ns_ = now_ns;
 }
@@ -36,8 +36,11 @@ FrameClock::Stamp FrameClock::ofDevice(int64_t device_time_ns, bool is_end) cons
           is_end ? half_of_unknown_us : start_sigma_us, false};
 }
 
+// The frame may have waited for a busy caller ever since none was there.
 FrameClock::Stamp FrameClock::ofArrival(int64_t arrival_ns) const {
-  return {arrival_ns, SPHC_TIME_ARRIVAL, exposure_us_, static_cast<uint32_t>(period_ns_ / 1000), false};
+  const int64_t sigma_us = std::max(period_ns_, arrival_ns - no_frame_ns_) / 1000;
+  return {arrival_ns, SPHC_TIME_ARRIVAL, exposure_us_,
+          static_cast<uint32_t>(std::min<int64_t>(sigma_us, UINT32_MAX)), false};
 }
 
 bool FrameClock::isPossible(int64_t time_ns, int64_t arrival_ns) const {

@@ -9,6 +9,8 @@ class FrameClock {
  public:
   // No frame is older than `now_ns`.  `period_ns` 0: not known.
   void restart(int64_t now_ns, int64_t period_ns);
+  // No frame waited to be taken: those taken later came after `now_ns`.
+  void sawNoFrame(int64_t now_ns) { no_frame_ns_ = now_ns; }
   void setExposure(uint32_t exposure_us) { exposure_us_ = exposure_us; }  // 0: not known
 
   struct Stamp {
@@ -29,6 +31,7 @@ class FrameClock {
 
   int64_t start_ns_ = 0;
   int64_t last_ns_ = INT64_MIN;
+  int64_t no_frame_ns_ = 0;
   int64_t period_ns_ = 0;
   uint32_t exposure_us_ = 0;
 };

@@ -149,6 +149,29 @@ TEST(Fault, TimeWhoseMicrosecondsAreASecondIsReplaced) {
   EXPECT_EQ(running.opened.stats().time_replaced, 1u);
 }
 
+TEST(Fault, FramesThatWaitedWithoutATimeOfTheirOwnAreAsUnsureAsThat) {
+  std::vector<int64_t> true_ns(40);
+  test::FakeCamera fake = depthCamera();
+  fake.time_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  fake.bend_frame = [&](test::FakeFrame &frame) { true_ns.at(frame.number) = frame.time_ns; };
+  RunningCamera running(std::move(fake), configFor(SPHC_STREAM_DEPTH));
+  const auto expectSure = [&](int captures, double most_sigma_us) {
+    for (int i = 0; i < captures; ++i) {
+      const sphc_capture capture = running.opened.take();
+      const int64_t late_us = (capture.time_ns - true_ns[capture.sequence]) / 1000;
+      EXPECT_LE(late_us, int64_t{capture.time_sigma_us}) << capture.sequence;
+      EXPECT_LE(capture.time_sigma_us, most_sigma_us) << capture.sequence;
+      running.opened.release(capture);
+    }
+  };
+  const double period_us = kPeriodNs / 1000.0;
+  expectSure(3, 1.01 * period_us);
+  running.kernel.now_ns += 20 * kPeriodNs;
+  expectSure(6, 21.1 * period_us);  // those that waited
+  running.opened.release(running.opened.take());
+  expectSure(3, 1.01 * period_us);
+}
+
 // ---- waiting ---------------------------------------------------------------------------------------------------
 
 TEST(Fault, StallIsAgainUntilItGoesOn) {

@@ -52,12 +52,26 @@ TEST(FrameClock, TakesArrivalWhenTheDeviceHasNoMonotonicTime) {
   FrameClock clock = startedClock();
   for (const uint32_t flags : {uint32_t{V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN}, uint32_t{V4L2_BUF_FLAG_TIMESTAMP_COPY}}) {
     const int64_t arrival_ns = kStart + (flags ? 60 : 20) * kMs;
+    clock.sawNoFrame(arrival_ns - 20 * kMs);
     const FrameClock::Stamp stamp = stamped(clock, kStart + 10 * kMs, flags, arrival_ns);
     EXPECT_EQ(stamp.time_ns, arrival_ns);
     EXPECT_EQ(stamp.time_point, SPHC_TIME_ARRIVAL);
     EXPECT_EQ(stamp.time_sigma_us, 33000u);
     EXPECT_FALSE(stamp.is_replaced) << "nothing is wrong with the device";
   }
+}
+
+TEST(FrameClock, ArrivalIsAsUnsureAsTheFrameMayHaveWaited) {
+  FrameClock clock = startedClock();
+  const auto sigmaUs = [&](int64_t arrival_ns) {
+    return stamped(clock, 0, V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, arrival_ns).time_sigma_us;
+  };
+  EXPECT_EQ(sigmaUs(kStart + 150 * kMs), 150000u) << "since the start";
+  clock.sawNoFrame(kStart + 160 * kMs);
+  EXPECT_EQ(sigmaUs(kStart + 180 * kMs), 33000u);
+  EXPECT_EQ(sigmaUs(kStart + 260 * kMs), 100000u);
+  EXPECT_EQ(sigmaUs(kStart + 261 * kMs), 101000u) << "it may have waited as long as the one before";
+  EXPECT_EQ(sigmaUs(kStart + 5000000 * kMs), UINT32_MAX) << "an hour and more";
 }
 
 TEST(FrameClock, ReplacesTimesThatCannotBe) {
