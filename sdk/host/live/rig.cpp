@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -20,6 +21,12 @@ int64_t nowNs(clockid_t clock) {
   timespec now = {};
   clock_gettime(clock, &now);
   return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
+}
+
+// Of a time and of the mapping that brought it to another clock, which know nothing of each other.
+uint32_t jointSigmaUs(uint32_t time_sigma_us, int64_t mapping_sigma_ns) {
+  const double sigma_us = std::round(std::hypot(time_sigma_us, static_cast<double>(mapping_sigma_ns) / 1000));
+  return static_cast<uint32_t>(std::min<double>(sigma_us, UINT32_MAX));
 }
 
 }  // namespace
@@ -168,6 +175,10 @@ void Rig::bringToHostClock(Camera *camera, sphc_capture *capture) {
     const int64_t arrival_ns = capture->arrival_ns ? capture->arrival_ns : nowNs(CLOCK_MONOTONIC);
     sphc_clock_mapper_add(camera->mapper, capture->time_ns, arrival_ns);
     sphc_clock_mapper_map(camera->mapper, capture->time_ns, &capture->time_ns);
+    sphc_clock_mapping mapping = {};
+    mapping.struct_size = sizeof mapping;
+    sphc_clock_mapper_get(camera->mapper, &mapping);
+    capture->time_sigma_us = jointSigmaUs(capture->time_sigma_us, mapping.sigma_ns);
   }
   capture->clock = SPHC_CLOCK_MONOTONIC;
 }

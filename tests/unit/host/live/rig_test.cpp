@@ -188,6 +188,53 @@ TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
   EXPECT_GT(pairs, 0u);
 }
 
+// A camera of one stream on a clock of its own, whose frames take as long as each other to arrive.
+class SteadyDevice : public LostDevice {
+ public:
+  SteadyDevice(sphc_stream stream, uint32_t time_sigma_us) : stream_(stream), time_sigma_us_(time_sigma_us) {
+    source_.self = this;
+    source_.acquire = [](void *self, uint32_t, sphc_capture *capture) {
+      return static_cast<SteadyDevice *>(self)->acquire(capture);
+    };
+  }
+
+ private:
+  sphc_status acquire(sphc_capture *capture) {
+    if (sequence_ == kRecordedFrames) return SPHC_END;
+    capture->stream = stream_;
+    capture->sequence = sequence_++;
+    capture->token = sequence_;
+    capture->time_ns = sequence_ * contract::kPeriodNs;
+    capture->arrival_ns = capture->time_ns + 5000000000;
+    capture->time_sigma_us = time_sigma_us_;
+    return SPHC_OK;
+  }
+
+  const sphc_stream stream_;
+  const uint32_t time_sigma_us_;
+  uint32_t sequence_ = 0;
+};
+
+// The host's clock adds what the mapping to it does not know: a millisecond of the least delay, by default.
+TEST_F(RigTest, TwoCamerasAreAsUnsureAsTheirTimesAndTheMappingTogether) {
+  options_.color = "color";
+  options_.depth = "depth";
+  options_.both.clear();
+  options_.open = [](const std::string &, const Wish &wish) {
+    return wish.color ? std::make_unique<SteadyDevice>(SPHC_STREAM_COLOR, 3000)
+                      : std::make_unique<SteadyDevice>(SPHC_STREAM_DEPTH, UINT32_MAX);
+  };
+  const auto rig = open();
+  uint32_t captures = 0;
+  rig->watch([&](const sphc_capture &capture) {
+    EXPECT_EQ(capture.time_sigma_us, capture.stream == SPHC_STREAM_COLOR ? 3162u : UINT32_MAX);
+    ++captures;
+  });
+  CapturePair pair;
+  while (rig->next(std::chrono::seconds(10), &pair) == Rig::Got::kPair) rig->release(pair);
+  EXPECT_EQ(captures, 2 * kRecordedFrames);
+}
+
 TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
   const Wish both, color = [] {
     Wish wish;
