@@ -1097,12 +1097,12 @@ class Interface:
         # Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. [pure]
         self.sphc_localizer_prediction_init = bound("sphc_localizer_prediction_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_prediction), ctypes.c_size_t])
-        # The pose at time_ns, in the time of frames: after the last frame, or up to 100 ms before it. From the last
-        # pose, and from there on by the rate of the caller's odometry, or else at constant velocity; the covariance
-        # has the errors of both, and how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set
-        # prediction->struct_size first. NOT_LOCALIZED, *prediction filled but for the pose: no pose within the
-        # second before time_ns; time_ns too long before the last frame; SPHC_MODE_SINGLE. Failures: ARGUMENT,
-        # STRUCT_SIZE. Changes nothing. [exclusive]
+        # The pose at time_ns, in the time of frames: after the last pose, or up to 100 ms before it (where odometry
+        # goes on from it: before the last frame). From the last pose, and from there on by the rate of the caller's
+        # odometry, or else at constant velocity; the covariance has the errors of both, and how heads accelerate (1
+        # sigma: 4 m/s^2, 6 rad/s^2). Set prediction->struct_size first. NOT_LOCALIZED, *prediction filled but for
+        # the pose: no pose within the second before time_ns; time_ns too long before it; SPHC_MODE_SINGLE.
+        # Failures: ARGUMENT, STRUCT_SIZE. Changes nothing. [exclusive]
         self.sphc_localizer_predict = bound("sphc_localizer_predict", ctypes.c_int32, [
             ctypes.c_void_p, ctypes.c_int64, ctypes.POINTER(sphc_localizer_prediction)])
         # Copies up to `capacity` observations, one every stride_bytes, and sets *count to how many there are.

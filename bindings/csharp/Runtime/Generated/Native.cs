@@ -586,12 +586,12 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_prediction_init(LocalizerPrediction* prediction, UIntPtr struct_size);
 
-  /// <summary>[exclusive] The pose at time_ns, in the time of frames: after the last frame, or up to 100 ms before
-  /// it. From the last pose, and from there on by the rate of the caller's odometry, or else at constant velocity;
-  /// the covariance has the errors of both, and how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set
-  /// prediction-&gt;struct_size first. NOT_LOCALIZED, *prediction filled but for the pose: no pose within the
-  /// second before time_ns; time_ns too long before the last frame; SPHC_MODE_SINGLE. Failures: ARGUMENT,
-  /// STRUCT_SIZE. Changes nothing.</summary>
+  /// <summary>[exclusive] The pose at time_ns, in the time of frames: after the last pose, or up to 100 ms before
+  /// it (where odometry goes on from it: before the last frame). From the last pose, and from there on by the rate
+  /// of the caller's odometry, or else at constant velocity; the covariance has the errors of both, and how heads
+  /// accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set prediction-&gt;struct_size first. NOT_LOCALIZED, *prediction
+  /// filled but for the pose: no pose within the second before time_ns; time_ns too long before it;
+  /// SPHC_MODE_SINGLE. Failures: ARGUMENT, STRUCT_SIZE. Changes nothing.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_predict(sphc_localizer* localizer, long time_ns, LocalizerPrediction* prediction);
 

@@ -1243,12 +1243,13 @@ extern "C" {
     /// Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_prediction_init(prediction: *mut sphc_localizer_prediction, struct_size: usize) -> sphc_status;
 
-    /// The pose at time_ns, in the time of frames: after the last frame, or up to 100 ms before it. From
-    /// the last pose, and from there on by the rate of the caller's odometry, or else at constant velocity;
-    /// the covariance has the errors of both, and how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set
-    /// prediction-\>struct_size first. NOT_LOCALIZED, \*prediction filled but for the pose: no pose within
-    /// the second before time_ns; time_ns too long before the last frame; SPHC_MODE_SINGLE. Failures:
-    /// ARGUMENT, STRUCT_SIZE. Changes nothing. Thread class: exclusive.
+    /// The pose at time_ns, in the time of frames: after the last pose, or up to 100 ms before it (where
+    /// odometry goes on from it: before the last frame). From the last pose, and from there on by the rate
+    /// of the caller's odometry, or else at constant velocity; the covariance has the errors of both, and
+    /// how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set prediction-\>struct_size first.
+    /// NOT_LOCALIZED, \*prediction filled but for the pose: no pose within the second before time_ns;
+    /// time_ns too long before it; SPHC_MODE_SINGLE. Failures: ARGUMENT, STRUCT_SIZE. Changes nothing.
+    /// Thread class: exclusive.
     pub fn sphc_localizer_predict(localizer: *const sphc_localizer, time_ns: i64, prediction: *mut sphc_localizer_prediction) -> sphc_status;
 
     /// Copies up to capacity observations, one every stride_bytes, and sets \*count to how many there are.

@@ -335,11 +335,12 @@ final class Native {
   static native int localizerPredictionInit(long prediction, long structSize);
 
   /**
-   * The pose at time_ns, in the time of frames: after the last frame, or up to 100 ms before it. From the last
-   * pose, and from there on by the rate of the caller's odometry, or else at constant velocity; the covariance has
-   * the errors of both, and how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2). Set prediction-&gt;struct_size
-   * first. NOT_LOCALIZED, *prediction filled but for the pose: no pose within the second before time_ns; time_ns
-   * too long before the last frame; {@link Mode#SINGLE}. Failures: ARGUMENT, STRUCT_SIZE. Changes nothing.
+   * The pose at time_ns, in the time of frames: after the last pose, or up to 100 ms before it (where odometry goes
+   * on from it: before the last frame). From the last pose, and from there on by the rate of the caller's odometry,
+   * or else at constant velocity; the covariance has the errors of both, and how heads accelerate (1 sigma: 4
+   * m/s^2, 6 rad/s^2). Set prediction-&gt;struct_size first. NOT_LOCALIZED, *prediction filled but for the pose: no
+   * pose within the second before time_ns; time_ns too long before it; {@link Mode#SINGLE}. Failures: ARGUMENT,
+   * STRUCT_SIZE. Changes nothing.
    */
   static native int localizerPredict(long localizer, long timeNs, long prediction);
 
