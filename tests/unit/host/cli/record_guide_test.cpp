@@ -51,7 +51,7 @@ TEST(RecordGuideTest, WhereItFailedItSaysSoAndWasNotBusy) {
   MadeUpWall wall(1);
   Console console;
   console.json = true;
-  RecordGuide guide(wallRig(), true, console);
+  RecordGuide guide(wallRig(), {}, true, console);
   guide.see(pairAt(kSecond, &wall));
   {
     const FullOutput full;
