@@ -337,7 +337,7 @@ TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeByOdometry) {
   const double error_m = errorOfRolling(kRollingRowNs, true);
   EXPECT_LT(error_m, 0.004);
   EXPECT_GT(errorOfRolling(0, true), 2 * error_m);
-  EXPECT_GT(errorOfRolling(-kRollingRowNs, true), errorOfRolling(0, true));
+  EXPECT_GT(errorOfRolling(-kRollingRowNs, true), 2 * error_m) << "the other way round";
 }
 
 TEST(Cameras, RowsOfARollingShutterAreTakenToOneTimeFromPoseToPose) {
