@@ -60,11 +60,15 @@ bool hasToldPose(const MapOptions &options, const MappedRecording &recording) {
 }
 
 // Before images are read, which takes minutes.
-void checkTold(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
-  if (options.trust.use == PoseUse::kNone) return;
-  for (const MappedRecording &recording : recordings)
-    if (recording.is_told) return;
-  refuseTold(options);
+void checkRecordings(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
+  uint64_t frames = 0;
+  bool is_told = false;
+  for (const MappedRecording &recording : recordings) {
+    frames += recording.reader->frameCount();
+    is_told = is_told || recording.is_told;
+  }
+  checkObservations(options.import, frames);
+  if (options.trust.use != PoseUse::kNone && !is_told) refuseTold(options);
 }
 
 // The frames that are mapped may be none of those that were told.
@@ -99,9 +103,6 @@ std::vector<MappedRecording> openAll(const MapOptions &options) {
     recordings[i].told = recording::readTumPoses(options.told[i], &recordings[i].bad_told);
   if (options.trust.use != PoseUse::kNone)
     for (MappedRecording &recording : recordings) recording.is_told = hasToldPose(options, recording);
-  uint64_t frames = 0;
-  for (const MappedRecording &recording : recordings) frames += recording.reader->frameCount();
-  checkObservations(options.import, frames);
   return recordings;
 }
 
@@ -229,7 +230,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   outcome.wants_told_axes = options.trust.keeps_axes;
   outcome.recordings = openAll(options);
   noteAll(options, outcome.recordings, console);
-  checkTold(options, outcome.recordings);
+  checkRecordings(options, outcome.recordings);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
@@ -248,7 +249,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
 RefinedCalibration refineCalibration(const MapOptions &options) {
   const std::vector<MappedRecording> recordings = openAll(options);
   const sphc_rig given = commonCalibration(recordings);
-  checkTold(options, recordings);
+  checkRecordings(options, recordings);
   Steps steps;
   RefinedCalibration refined = {given, {}, 0};
   const auto read = [&](const TrialCalibration &trial) {
