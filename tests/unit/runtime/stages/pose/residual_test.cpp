@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
@@ -21,7 +22,7 @@ TEST(Corrected, APointLiesWhereASensorWithoutBiasHasIt) {
   EXPECT_LT(point.point_m.normalized().cross(measured.point_m.normalized()).norm(), 1e-12);
   EXPECT_EQ(point.sideways_m, 0.005);
   EXPECT_EQ(point.along_m, 0.03);
-  const LiftedPoint ray = {Vector3(0.1, 0, 1), 0.005, INFINITY};
+  const LiftedPoint ray = {Vector3(0.1, 0, 1), 0.005, std::numeric_limits<double>::infinity()};
   EXPECT_EQ(corrected(ray, depth).point_m, ray.point_m);
 }
 
