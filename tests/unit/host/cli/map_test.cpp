@@ -160,6 +160,26 @@ TEST_F(MapTest, AModelOfLessThanAThirdOfTheFramesIsNotWritten) {
 }
 
 // Focal length and principal point are off in the file that the tool is given.
+// Depth is three frames late: `build` refuses the recording, and knows nothing of it where it gets the model alone.
+TEST_F(MapTest, AWalkThatContradictsItselfIsNotForPublishing) {
+  ASSERT_EQ(runCommand("simulate --frames 24 --rate 6 --seed 6001 --out " + at("late")).exit_code, kExitDone);
+  std::istringstream list(folder_->read("late/depth.txt"));
+  std::string late, line;
+  std::vector<std::string> images;
+  while (std::getline(list, line)) {
+    if (line.front() == '#') continue;
+    const size_t space = line.find(' ');
+    images.push_back(line.substr(space));
+    late += line.substr(0, space) + images[images.size() < 4 ? 0 : images.size() - 4] + "\n";
+  }
+  folder_->write("late/depth.txt", late);
+  const Answer mapped = runCommand("map -r " + at("late") + " --model " + at("late.model"));
+  EXPECT_EQ(mapped.exit_code, kExitFailure);
+  EXPECT_THAT(mapped.err, HasSubstr("this walk contradicts itself:\n  depth and colour disagree in "));
+  EXPECT_THAT(mapped.err, HasSubstr("Do not publish it"));
+  EXPECT_TRUE(fs::exists(at("late.model"))) << "an hour of work may be in it";
+}
+
 TEST_F(MapTest, ACalibrationThatIsOffIsRefined) {
   sphc_rig rig = recording::readCalibration(at("walk/calibration.json"));
   const double fx = rig.color_camera.params[0], cx = rig.color_camera.params[2];
