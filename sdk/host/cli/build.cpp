@@ -10,6 +10,7 @@
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/contradictions.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/light_options.h"
@@ -120,9 +121,7 @@ void checkSamePlace(const BuildOptions &options, const Place &place) {
 // What is published cannot be taken back.
 void checkContradictions(const BuildOptions &options, const ImportedPoints &imported) {
   if (imported.contradictions.empty() || options.anyway) return;
-  std::string why;
-  for (const std::string &contradiction : imported.contradictions) why += "\n  " + contradiction;
-  throw std::runtime_error("this recording contradicts itself:" + why +
+  throw std::runtime_error("this recording contradicts itself:" + contradictionLines(imported.contradictions) +
                            "\nNothing was published, since that could not be taken back. Correct it; "
                            "`spherecloud doctor --device replay:RECORDING` says more of the images. Or publish it "
                            "all the same with --anyway");

@@ -8,6 +8,7 @@
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/contradictions.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/map_recordings.h"
 #include "host/import/model_file.h"
@@ -70,9 +71,8 @@ std::string whyNoModel(const MapOutcome &outcome) {
 // `build` of the recording would refuse it, and of the model it could not know.
 void checkContradictions(const MapOptions &options, const MapOutcome &outcome) {
   if (outcome.import.contradictions.empty()) return;
-  std::string why;
-  for (const std::string &contradiction : outcome.import.contradictions) why += "\n  " + contradiction;
-  throw std::runtime_error("this walk contradicts itself:" + why + "\n" + options.model +
+  throw std::runtime_error("this walk contradicts itself:" + contradictionLines(outcome.import.contradictions) +
+                           "\n" + options.model +
                            " was written all the same. Do not publish it: correct the recording, and map it again");
 }
 

@@ -180,6 +180,12 @@ std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
   return sentences;
 }
 
+std::string contradictionLines(const std::vector<std::string> &contradictions) {
+  std::string lines;
+  for (const std::string &contradiction : contradictions) lines += "\n  " + contradiction;
+  return lines;
+}
+
 std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary) {
   if (summary.frames_used < kFewestFrames) return {};
   std::vector<std::string> sentences = contradictionsOfParts(summary);

@@ -12,6 +12,8 @@ namespace sphc::host {
 std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary);
 // Of the whole recording, so much that no map of it can be right.  Empty: none.
 std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary);
+// Each on a line of its own, behind what introduces them.
+std::string contradictionLines(const std::vector<std::string> &contradictions);
 // Those of poses and depth alone, without faults of the images.
 std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary);
 // Why they may be wrong where no contradiction is found: they agree less than in sound recordings, or too few
