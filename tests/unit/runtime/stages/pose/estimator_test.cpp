@@ -80,17 +80,23 @@ TEST(Estimator, RowsWithoutDepthHelp) {
   EXPECT_LT(test::median(with), 0.9 * test::median(without));
 }
 
+// The noise of depth is as stated.
+test::PoseWorldOptions noisyAt(uint64_t seed, double depth_sigma_m, double pixel_sigma_px) {
+  test::PoseWorldOptions options;
+  options.seed = seed;
+  options.depth_sigma_m = options.stated_depth_sigma_m = depth_sigma_m;
+  options.pixel_sigma_px = pixel_sigma_px;
+  return options;
+}
+
 // Equal things that stand in a row: two in five matches are with one of the next two, 8 or 16 cm on.  The sphere
 // centre lies to the side, so these agree with their epipolar planes.
 TEST(Estimator, MatchesWithTheNextOfARowDoNotPull) {
   test::TestEstimator estimator;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    test::PoseWorldOptions options;
-    options.seed = seed;
+    test::PoseWorldOptions options = noisyAt(seed, 0.02, 1);
     options.wall_m = 2.5;
     options.centre_offset_m = Vector3(1, 0.1, -2);
-    options.depth_sigma_m = options.stated_depth_sigma_m = 0.02;
-    options.pixel_sigma_px = 1;
     test::PoseWorld world = test::makePoseWorld(options);
     const Rigid map_from_camera = world.camera_from_map.inverse();
     for (size_t i = 0; i < world.correspondences.size(); ++i) {
@@ -107,11 +113,8 @@ TEST(Estimator, MatchesWithTheNextOfARowDoNotPull) {
 TEST(Estimator, WithNoiseTheErrorIsThatOfTheNoise) {
   test::TestEstimator estimator;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    test::PoseWorldOptions options;
-    options.seed = seed;
+    test::PoseWorldOptions options = noisyAt(seed, 0.015, 0.8);
     options.true_share = 0.33;
-    options.depth_sigma_m = options.stated_depth_sigma_m = 0.015;
-    options.pixel_sigma_px = 0.8;
     const test::PoseWorld world = test::makePoseWorld(options);
     const Estimate estimate = estimator.search(world);
     EXPECT_LT(test::rotationErrorRad(estimate.camera_from_map, world.camera_from_map), 0.5 * kPi / 180) << seed;
