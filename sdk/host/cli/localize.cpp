@@ -176,14 +176,30 @@ void noteContradictions(const Summary &summary, const Console &console) {
                "doctor");
 }
 
-// A path whose poses lie in the frames of several maps is none.
+// Errors of other maps are told beside them.
+void align(const Console &console, Run *run) {
+  const std::vector<uint32_t> unaligned = alignTruth(run);
+  if (run->aligned_frames == 0)
+    return console.warn(std::string("note: --align: ") +
+                        (run->has_poses ? "fewer than 3 localized frames have a pose in the recording" : kNoPoses) +
+                        ", so no errors are known");
+  for (const uint32_t map : unaligned)
+    console.warn("note: --align: fewer than 3 frames localized in " + run->maps[map].path +
+                 " have a pose in the recording, so their errors are not known");
+}
+
+// A path whose poses lie in the frames of several maps is none.  Nothing tells whether maps with notes share a
+// world.
 void noteMixedFrames(const LocalizeOptions &options, const Run &run, const Console &console) {
-  const size_t bases = basesOfAnswers(run);
-  if (options.trajectory.empty() || bases < 2) return;
+  const size_t maps = mapsWithAnswers(run);
+  if (options.trajectory.empty() || maps < 2) return;
   console.warn(
-      "note: --trajectory: its poses are of " + std::to_string(bases) +
-      " maps, each in the frame of its own; give --owner-note for each --map, or take --frames-json, which "
-      "names the map of each pose");
+      "note: --trajectory: its poses are of " + std::to_string(maps) + " maps" +
+      (run.base == "map"
+           ? ", each in the frame of its own; give --owner-note for each --map, or take --frames-json, which"
+           : "; a map that spherecloud map made without given poses has a world of its own, and the path jumps "
+             "where such a map begins; --frames-json") +
+      " names the map of each pose");
 }
 
 // Poses that are sure and far from the truth, most of them: then it is the truth that lies elsewhere.
@@ -205,10 +221,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
   Run done = localize(options, reader.get(), console);
-  if (options.align && !alignTruth(&done))
-    console.warn(std::string("note: --align: ") +
-                 (done.has_poses ? "fewer than 3 localized frames have a pose in the recording" : kNoPoses) +
-                 ", so no errors are known");
+  if (options.align) align(console, &done);
   const Summary summary = summarize(done);
   const auto told = writeOutputs(options, done, reader.get(), console);  // before words, whose reader may be gone
   console.say(tableText(tableRows(done, summary)));

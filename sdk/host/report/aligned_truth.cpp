@@ -1,6 +1,7 @@
 #include "host/report/aligned_truth.h"
 
 #include <algorithm>
+#include <map>
 
 #include "host/report/statistics.h"
 #include "host/report/trajectory_score.h"
@@ -46,31 +47,65 @@ std::vector<PosePair> near(const std::vector<PosePair> &poses, const Rigid &true
   return kept;
 }
 
-}  // namespace
+struct Alignment {
+  Rigid estimated_from_true;
+  size_t poses = 0;  // that it rests on
+};
 
-bool alignTruth(Run *run) {
-  std::vector<PosePair> all;
-  for (const FrameRecord &frame : run->frames)
-    if (frame.localized && frame.has_truth)
-      all.push_back({rigidFromC(frame.base_from_camera), rigidFromC(frame.truth_base_from_camera)});
-  if (all.size() < kFewestScored) {
-    for (FrameRecord &frame : run->frames) frame.has_truth = false;
-    return false;
-  }
+Alignment alignmentOf(const std::vector<PosePair> &all) {
   std::vector<PosePair> used = all;
   Rigid true_from_estimated = truthFromEstimate(used);
   for (int round = 0; round < kRounds; ++round) {
     used = near(all, true_from_estimated);
     true_from_estimated = truthFromEstimate(used);
   }
-  run->aligned_frames = static_cast<uint32_t>(used.size());
-  const Rigid estimated_from_true = true_from_estimated.inverse();
+  return {true_from_estimated.inverse(), used.size()};
+}
+
+using PosesOfMaps = std::map<uint32_t, std::vector<PosePair>>;
+
+PosesOfMaps posesWithTruth(const Run &run) {
+  PosesOfMaps poses;
+  for (const FrameRecord &frame : run.frames)
+    if (frame.localized && frame.has_truth)
+      poses[frame.map].push_back({rigidFromC(frame.base_from_camera), rigidFromC(frame.truth_base_from_camera)});
+  return poses;
+}
+
+// A frame without an answer goes with the last answer before it, or, before the first, with that.
+void moveTruth(const std::map<uint32_t, Alignment> &alignments, Run *run) {
+  auto last = alignments.end();
+  for (const FrameRecord &frame : run->frames)
+    if (last == alignments.end() && frame.localized) last = alignments.find(frame.map);
   for (FrameRecord &frame : run->frames) {
+    const auto by = frame.localized ? alignments.find(frame.map) : last;
+    if (by == alignments.end())
+      frame.has_truth = false;
+    else
+      last = by;
     if (!frame.has_truth) continue;
-    frame.truth_base_from_camera = rigidToC(estimated_from_true * rigidFromC(frame.truth_base_from_camera));
+    const Rigid truth = rigidFromC(frame.truth_base_from_camera);
+    frame.truth_base_from_camera = rigidToC(by->second.estimated_from_true * truth);
     judge(&frame);
   }
-  return true;
+}
+
+}  // namespace
+
+std::vector<uint32_t> alignTruth(Run *run) {
+  std::map<uint32_t, Alignment> alignments;
+  std::vector<uint32_t> unaligned;
+  size_t aligned_frames = 0;
+  for (const auto &[map, poses] : posesWithTruth(*run)) {
+    if (poses.size() < kFewestScored) {
+      unaligned.push_back(map);
+      continue;
+    }
+    aligned_frames += (alignments[map] = alignmentOf(poses)).poses;
+  }
+  run->aligned_frames = static_cast<uint32_t>(aligned_frames);
+  moveTruth(alignments, run);
+  return unaligned;
 }
 
 }  // namespace sphc::host

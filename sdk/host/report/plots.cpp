@@ -38,28 +38,33 @@ uint32_t mapToDraw(const Run &run) {
   return static_cast<uint32_t>(std::max_element(answers.begin(), answers.end()) - answers.begin());
 }
 
-bool isDrawn(const FrameRecord &frame, uint32_t map) { return map == SPHC_MAP_NONE || frame.map == map; }
+bool isDrawn(const FrameRecord &frame, uint32_t map) {
+  return map == SPHC_MAP_NONE || (frame.localized && frame.map == map);
+}
 
 Path splitPath(const Run &run, uint32_t map) {
   std::vector<sphc_rigid> poses;
   for (const FrameRecord &frame : run.frames) {
+    if (!isDrawn(frame, map)) continue;
     if (frame.has_truth)
       poses.push_back(frame.truth_base_from_camera);
-    else if (frame.localized && isDrawn(frame, map))
+    else if (frame.localized)
       poses.push_back(frame.base_from_camera);
   }
   const TopView view = topView(poses);
   Path path;
-  for (const auto &centre_m : run.centres_m) {
-    const auto centre = view.project(centre_m.data());
+  for (size_t i = 0; i < run.centres_m.size(); ++i) {
+    if (run.centres_m.size() > 1 && map != SPHC_MAP_NONE && i != map) continue;
+    const auto centre = view.project(run.centres_m[i].data());
     path.centres.push_back({centre[0], centre[1], 0});
   }
   for (const FrameRecord &frame : run.frames) {
+    if (!isDrawn(frame, map)) continue;
     const auto truth = view.project(frame.truth_base_from_camera.t_m),
                seen = view.project(frame.base_from_camera.t_m);
     if (frame.has_truth) path.truth.push_back({truth[0], truth[1], 0});
     if (frame.has_truth && !frame.localized) path.lost.push_back({truth[0], truth[1], 0});
-    if (!frame.localized || !isDrawn(frame, map)) continue;
+    if (!frame.localized) continue;
     if (frame.has_truth)
       path.estimate.push_back({seen[0], seen[1], 100 * frame.translation_error_m});
     else
@@ -203,14 +208,16 @@ Drawing pathFromTop(const Run &run) {
   Path path = splitPath(run, map);
   if (path.truth.empty() && path.unjudged.empty()) return {"path", "", "", "", {}};
   const Extent extent = extentOf(&path);
-  const std::string frame = run.base == "map" ? "the map's own frame" : "the world that the map was made in";
-  std::string caption = path.truth.empty()
-                            ? "Every dot is one answer, in " + frame + "."
-                            : "Every dot is one answer, coloured by how far it is from the true place (grey line).";
+  std::string of, frame = run.base == "map" ? "the map's own frame" : "the world that the map was made in";
+  if (map != SPHC_MAP_NONE) {
+    of = " in " + run.maps[map].path;
+    frame = "that map's own frame";
+  }
+  std::string caption =
+      "Every dot is one answer" + of + ", " +
+      (path.truth.empty() ? "in " + frame + "." : "coloured by how far it is from the true place (grey line).");
   if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
-  if (map != SPHC_MAP_NONE)
-    caption = "Every dot is one answer in " + run.maps[map].path +
-              ", in that map's own frame. Answers in other maps have frames of their own and are not drawn.";
+  if (map != SPHC_MAP_NONE) caption += " Answers in other maps have frames of their own and are not drawn.";
   if (path.centres.size() > 1)
     caption += " The stars are the sphere centres, from which the maps' directions point.";
   else if (!path.centres.empty())

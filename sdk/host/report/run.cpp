@@ -96,10 +96,13 @@ std::vector<size_t> answersByMap(const Run &run) {
   return answers;
 }
 
-size_t basesOfAnswers(const Run &run) {
-  if (run.base != "map") return 1;
+size_t mapsWithAnswers(const Run &run) {
   const std::vector<size_t> answers = answersByMap(run);
   return answers.size() - static_cast<size_t>(std::count(answers.begin(), answers.end(), size_t{0}));
+}
+
+size_t basesOfAnswers(const Run &run) {
+  return run.base == "map" || run.aligned_frames > 0 ? mapsWithAnswers(run) : 1;
 }
 
 std::string fixed(double value, int digits) {

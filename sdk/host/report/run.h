@@ -90,8 +90,9 @@ struct Run {
 uint64_t mapBytes(const Run &run);
 // Localized frames in each map.
 std::vector<size_t> answersByMap(const Run &run);
-// In how many frames of reference they are: in one, or of several maps without notes in that of each with an
-// answer.
+size_t mapsWithAnswers(const Run &run);
+// In how many frames of reference the answers are: in one, or, without notes or after an alignment, in that of each
+// map with an answer.
 size_t basesOfAnswers(const Run &run);
 
 // "few matches" and so on: a word or two for tables, and a sentence with the likely cause.

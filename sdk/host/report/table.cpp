@@ -84,7 +84,8 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   addHints(s, &rows);
   if (run.aligned_frames)
     rows.push_back({"TRUTH ALIGNED", counted(run.aligned_frames, "pose"),
-                    "the errors are what a rigid alignment of the recording's poses to the map leaves (--align)"});
+                    std::string("the errors are what a rigid alignment of the recording's poses to ") +
+                        (run.maps.size() > 1 ? "each map" : "the map") + " leaves (--align)"});
   addErrors(run, s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

@@ -76,6 +76,26 @@ TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
   EXPECT_THAT(found.err, Not(HasSubstr("far from")));
 }
 
+TEST_F(MapTest, OfSeveralMapsEachIsAlignedByItself) {
+  const std::string walk = at("far");
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 0.5 --out " + walk).exit_code, kExitDone);
+  std::string localize = "localize --json --mode single --align -r " + walk + " --trajectory " + at("far.tum");
+  for (const std::string frames : {"--first 0 --last 1", "--first 4 --last 5"}) {
+    const std::string map = at("far" + frames.substr(8, 1) + ".sphc");
+    const Answer built =
+        runCommand("build -r " + walk + " " + frames + " -m " + map + " --ledger " + map + ".ledger");
+    ASSERT_EQ(built.exit_code, kExitDone) << built.err;
+    localize += " -m " + map + " --owner-note " + map + ".owner.json";
+  }
+  const Answer found = runCommand(localize);
+  ASSERT_EQ(found.exit_code, kExitDone) << found.err;
+  const auto summary = nlohmann::json::parse(found.out);
+  EXPECT_EQ(summary["aligned_frames"], 3);  // the other map has two
+  EXPECT_EQ(summary["within_5cm_5deg"], 3);
+  EXPECT_THAT(found.err, HasSubstr("--align: fewer than 3 frames localized in " + at("far0.sphc")));
+  EXPECT_THAT(found.err, HasSubstr("--trajectory: its poses are of 2 maps; a map that spherecloud map made"));
+}
+
 TEST_F(MapTest, TheScoreComparesWithThePosesOfTheRecording) {
   const Answer mapped = runCommand("map -r " + at("walk") + " --model " + at("walk.model") + " --score --json");
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;

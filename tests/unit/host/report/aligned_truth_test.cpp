@@ -1,5 +1,6 @@
 #include "host/report/aligned_truth.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "frames.h"
@@ -22,10 +23,23 @@ host::Run elsewhere() {
   return run;
 }
 
+// The same, from frame 10 in a second map, whose world lies elsewhere too.
+host::Run elsewhereInTwoMaps() {
+  host::Run run = elsewhere();
+  run.maps.resize(2);
+  const Rigid second_from_first = {rotationFromVector(Vector3(-1, 0.2, 0.5)), Vector3(-3, 7, 1)};
+  for (size_t i = 10; i < run.frames.size(); ++i) {
+    FrameRecord &frame = run.frames[i];
+    frame.map = frame.localized ? 1 : SPHC_MAP_NONE;
+    frame.base_from_camera = rigidToC(second_from_first * rigidFromC(frame.base_from_camera));
+  }
+  return run;
+}
+
 TEST(AlignedTruth, BringsTheTruthToTheMapsWorld) {
   host::Run run = elsewhere();
   EXPECT_EQ(summarize(run).good, 0u);
-  EXPECT_TRUE(alignTruth(&run));
+  EXPECT_TRUE(alignTruth(&run).empty());
   const Summary summary = summarize(run);
   EXPECT_EQ(summary.good, 20u);
   EXPECT_EQ(run.aligned_frames, 20u);
@@ -42,8 +56,30 @@ TEST(AlignedTruth, APoseThatIsWrongStaysWrong) {
 TEST(AlignedTruth, OfTwoPosesTheTruthIsDropped) {
   host::Run run = elsewhere();
   run.frames.resize(2);
-  EXPECT_FALSE(alignTruth(&run));
+  alignTruth(&run);
+  EXPECT_EQ(run.aligned_frames, 0u);
   EXPECT_EQ(summarize(run).with_truth, 0u);
+}
+
+TEST(AlignedTruth, EachMapHasAWorldOfItsOwn) {
+  host::Run run = elsewhereInTwoMaps();
+  EXPECT_TRUE(alignTruth(&run).empty());
+  const Summary summary = summarize(run);
+  EXPECT_EQ(summary.good, 20u);
+  EXPECT_EQ(summary.wrong, 1u);
+  EXPECT_EQ(summary.with_truth, 22u) << "a frame that was not found counts as before";
+  EXPECT_EQ(run.aligned_frames, 20u);
+  EXPECT_EQ(basesOfAnswers(run), 2u);
+}
+
+TEST(AlignedTruth, AMapOfTwoPosesIsNamedAndItsTruthIsDropped) {
+  host::Run run = elsewhereInTwoMaps();
+  for (size_t i = 12; i <= 20; ++i) run.frames[i] = lostFrame(static_cast<uint32_t>(i));
+  EXPECT_THAT(alignTruth(&run), testing::ElementsAre(1u));
+  const Summary summary = summarize(run);
+  EXPECT_EQ(summary.good, 10u);
+  EXPECT_EQ(summary.wrong, 0u);
+  EXPECT_EQ(summary.with_truth, 20u) << "all but the two";
 }
 
 }  // namespace

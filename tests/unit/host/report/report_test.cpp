@@ -39,6 +39,14 @@ class ReportTest : public testing::Test {
   host::Run run_;
 };
 
+// Of a data block in a gnuplot script.
+std::ptrdiff_t linesOf(const std::string &script, const std::string &block) {
+  const std::string head = "$" + block + " << EOD\n";
+  const size_t begin = script.find(head) + head.size(), end = script.find("EOD\n", begin);
+  return std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
+                    script.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+}
+
 TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {
   const std::string page = write();
   EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
@@ -127,11 +135,7 @@ TEST_F(ReportTest, OfSeveralMapsAllCentresAreDrawn) {
   EXPECT_THAT(page, HasSubstr("The stars are the sphere centres"));
   EXPECT_THAT(page, HasSubstr("All directions in the first map"));
   const auto bytes = readBytes(folder_ / "plots/path.gp");
-  const std::string script(bytes.begin(), bytes.end());
-  const size_t begin = script.find("$centre << EOD\n") + 15, end = script.find("EOD\n", begin);
-  EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
-                       script.begin() + static_cast<std::ptrdiff_t>(end), '\n'),
-            2);
+  EXPECT_EQ(linesOf({bytes.begin(), bytes.end()}, "centre"), 2);
 }
 
 // Without the owner's notes each map has a frame of its own.
@@ -144,14 +148,24 @@ TEST_F(ReportTest, AnswersInFramesOfSeveralMapsAreNotDrawnAsOnePath) {
   }
   EXPECT_THAT(write(), HasSubstr("Every dot is one answer in hall.sphc, in that map&#39;s own frame."));
   const auto bytes = readBytes(folder_ / "plots/path.gp");
-  const std::string script(bytes.begin(), bytes.end());
-  const size_t begin = script.find("$unjudged << EOD\n") + 17, end = script.find("EOD\n", begin);
-  EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
-                       script.begin() + static_cast<std::ptrdiff_t>(end), '\n'),
-            5)
-      << "frames 3 to 7";
+  EXPECT_EQ(linesOf({bytes.begin(), bytes.end()}, "unjudged"), 5) << "frames 3 to 7";
   for (FrameRecord &frame : run_.frames) frame.map = 1;
   EXPECT_THAT(write(), HasSubstr("Every dot is one answer, in the map&#39;s own frame."));
+}
+
+// After an alignment each map has a world of its own too.
+TEST_F(ReportTest, OfAlignedMapsOneIsDrawn) {
+  run_.base = "world";
+  run_.maps.resize(2, run_.maps.front());
+  run_.maps[1].path = "hall.sphc";
+  run_.centres_m = {{0.1, 0.2, 1}, {0.5, 0.1, 1}};
+  run_.aligned_frames = 8;
+  for (FrameRecord &frame : run_.frames) frame.map = frame.sequence < 3 ? 0 : 1;
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("Every dot is one answer in hall.sphc, coloured by"));
+  EXPECT_THAT(page, HasSubstr("The star is the sphere centre"));
+  const auto bytes = readBytes(folder_ / "plots/path.gp");
+  EXPECT_EQ(linesOf({bytes.begin(), bytes.end()}, "truth"), 5) << "frames 3 to 7";
 }
 
 TEST_F(ReportTest, LargeNumbersOfFramesKeepTheirDigits) {
