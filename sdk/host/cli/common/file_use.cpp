@@ -32,9 +32,8 @@ bool areSame(const std::string &a, const std::string &b) {
   return plain(a) == plain(b) || fs::equivalent(a, b, error);  // or two names of one file
 }
 
+// The folder need not be there yet.
 bool liesIn(const std::string &inner, const std::string &folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return false;
   const fs::path outer = plain(folder), path = plain(inner);
   return std::mismatch(outer.begin(), outer.end(), path.begin(), path.end()).first == outer.end();
 }
@@ -170,20 +169,30 @@ void FileUse::check() const {
       if (areSame(output.path, input.path))
         throw UsageError(output.option + " would replace what " + input.option + " reads: " + output.path +
                          "; choose another name");
-      if (liesIn(output.path, input.path))
+      std::error_code error;
+      if (fs::is_directory(input.path, error) && liesIn(output.path, input.path))
         throw UsageError(output.option + " " + output.path + " lies in the folder that " + input.option +
                          " reads; choose a place outside of it");
     }
-    for (const Output *other = outputs_.data(); other != &output; ++other)
+    for (const Output *other = outputs_.data(); other != &output; ++other) {
       if (areSame(output.path, other->path))
         throw UsageError(output.option + " and " + other->option + " are one file: " + output.path +
                          "; choose two names");
+      checkIsApart(output, *other);
+      checkIsApart(*other, output);
+    }
   }
   for (const Output &output : outputs_) {
     if (output.kind == Kind::kFolder) checkFolder(output);
     if (output.kind == Kind::kRecording) checkRecording(output);
     if (output.kind == Kind::kFile || output.kind == Kind::kNew || output.kind == Kind::kKept) checkFile(output);
   }
+}
+
+void FileUse::checkIsApart(const Output &output, const Output &folder) {
+  if (folder.kind == Kind::kFolder && liesIn(output.path, folder.path))
+    throw UsageError(output.option + " " + output.path + " lies in the folder that " + folder.option +
+                     " writes; choose a place outside of it");
 }
 
 void FileUse::checkFile(const Output &output) const {

@@ -37,8 +37,8 @@ class FileUse {
   // What the command keeps by itself, as a ledger: never replaced, so never refused because it is there.
   void keeps(const std::string &option, const std::string &path);
 
-  // Throws UsageError where an output is an input, lies in one, or is written twice; std::runtime_error with cause
-  // and cure where something is there that is not ours, or the folder is not.
+  // Throws UsageError where an output is an input, lies in one or in the folder of another output, or is written
+  // twice; std::runtime_error with cause and cure where something is there that is not ours, or the folder is not.
   void check() const;
 
  private:
@@ -53,6 +53,7 @@ class FileUse {
   };
 
   void add(const std::string &option, const std::string &path, Kind kind, IsOurs is_ours);
+  static void checkIsApart(const Output &output, const Output &folder);
   void checkFile(const Output &output) const;
   void checkFolder(const Output &output) const;
   void checkRecording(const Output &output) const;

@@ -109,6 +109,25 @@ TEST_F(FileUseTest, TwoOutputsAreTwoFiles) {
   }
 }
 
+// The folder's own files would replace it.
+TEST_F(FileUseTest, AnOutputLiesInNoFolderOfAnother) {
+  const auto check = [this](const std::string &file, bool folder_first) {
+    FileUse files(true);
+    if (!folder_first) files.writes("--frames-json", folder_ / file, never());
+    files.writesFolder("--report", folder_ / "report", never());
+    if (folder_first) files.writes("--frames-json", folder_ / file, never());
+    files.check();
+  };
+  for (const bool is_there : {false, true}) {
+    if (is_there) fs::create_directory(folder_ / "report");
+    for (const bool folder_first : {false, true}) {
+      for (const std::string file : {"report/summary.json", "walk/../report/a"})
+        EXPECT_THROW(check(file, folder_first), UsageError) << file;
+      check("report.json", folder_first);
+    }
+  }
+}
+
 TEST_F(FileUseTest, AKeyIsANewFileInAFolderThatIsThere) {
   const auto refused = [](const std::string &path) {
     FileUse files(true);
