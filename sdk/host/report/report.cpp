@@ -112,6 +112,14 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
 }
 
+// By it the next run knows the folder, should this one be killed before its page is written.
+void writeUnfinishedPage(const std::string &page) {
+  if (std::filesystem::exists(page)) return;
+  writeFile(page,
+            std::string("<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>") + kReportHead +
+                "</head>\n<body><p>This report was not finished. Run the same command again.</p></body></html>\n");
+}
+
 // Another run had other frames to show; its pictures must not stay beside this one's.
 void removeOldOverlays(const std::string &folder) {
   std::vector<std::filesystem::path> old;
@@ -128,6 +136,8 @@ ReportSummary writeReport(const std::string &folder, const Run &run, const Image
     makeFolder(folder);
   else
     makePrivateFolder(folder);  // drawings show the sphere centres
+  const std::string page = folder + "/report.html";
+  writeUnfinishedPage(page);
   removeOldOverlays(folder);
   const Summary summary = summarize(run);
   PageContent content;
@@ -137,8 +147,8 @@ ReportSummary writeReport(const std::string &folder, const Run &run, const Image
   writeFile(folder + "/frames.jsonl", framesJsonLines(run));
   writeFile(folder + "/summary.json", jsonText(summaryJson(run, summary), 2) + "\n");
   writeFile(folder + "/trajectory.tum", tumTrajectory(run));
-  writeFile(folder + "/report.html", reportPage(run, summary, content));
-  return {folder + "/report.html", content.plot_problem};
+  writeFile(page, reportPage(run, summary, content));
+  return {page, content.plot_problem};
 }
 
 }  // namespace sphc::host

@@ -9,11 +9,13 @@
 
 #include "frames.h"
 #include "host/report/file.h"
+#include "host/report/page.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -213,6 +215,19 @@ TEST_F(ReportTest, NamesSeveralMapsAsTheyAreCalled) {
   run_.maps.push_back(run_.maps[0]);
   run_.maps[1].path = "kitchen & <hall>.sphc";
   EXPECT_THAT(write(), HasSubstr("<td class='value'>kitchen &amp; &lt;hall&gt;.sphc</td>"));
+}
+
+// Killed then, it would leave pictures, and no page to know them by.
+TEST_F(ReportTest, APageMarksTheFolderBeforeThePictures) {
+  const std::string page = folder_ / "report.html";
+  const ImageOfFrame image = [&page](const FrameRecord &) {
+    const auto bytes = readBytes(page);
+    EXPECT_THAT(std::string(bytes.begin(), bytes.end()), AllOf(HasSubstr(kReportHead), HasSubstr("not finished")));
+    return cv::Mat(48, 64, CV_8UC3, cv::Scalar(90, 90, 90));
+  };
+  writeReport(folder_.path(), run_, image);
+  const auto bytes = readBytes(page);
+  EXPECT_THAT(std::string(bytes.begin(), bytes.end()), Not(HasSubstr("not finished")));
 }
 
 TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
