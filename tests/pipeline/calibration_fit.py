@@ -18,10 +18,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from mapping import FRAMES, LAP_S, REAL, ROOMS
-from recordings import HERE, Recording, frames, run
+from mapping import FRAMES, LAP_S, ROOMS, real_walk
+from recordings import HERE, run
 
 RESULTS = HERE / "calibration_fit.csv"
+REAL = ["redkitchen", "hololens", "hololens2"]  # walks of mapping.py
 FOCAL, CENTER_PX, TURN_DEG, SHIFT_M = 0.015, 4, 0.7, 0.008  # what a calibration is off: either way, each axis
 COLUMNS = ["given", "recording", "calibration", "focal_percent", "center_px", "turn_deg", "shift_mm", "ate_rigid_m"]
 
@@ -92,12 +93,11 @@ def measure_room(seed, tool, folder):
 
 
 def measure_real(name, tool, folder):
-    recording = Recording(name, tool, folder)
+    recording, (option, path, _, calibration, *selection) = real_walk(name, tool, folder)
     if not recording.is_there():
         return []
-    option, path, _, calibration = recording.place("map")
     truth = read(calibration)
-    return rows_of("sound", name, tool, [option, path, *frames(REAL[name])], calibration, truth, folder)
+    return rows_of("sound", name, tool, [option, path, *selection], calibration, truth, folder)
 
 
 def main():

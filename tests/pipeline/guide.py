@@ -14,10 +14,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from mapping import REAL, ROOMS
-from recordings import HERE, Recording, frames, run
+from mapping import ROOMS, real_walk
+from recordings import HERE, run
 
 RESULTS = HERE / "guide.csv"
+REAL = ["redkitchen", "hololens", "hololens2"]  # walks of mapping.py
 FRAMES, RATE = 200, 6.25  # two laps
 ADVICE = ["lost", "too dark", "no depth", "too fast", "too plain", "thin"]
 FALSE_M, FALSE_DEG = 0.25, 10  # as poses that are wrong, in accuracy.csv
@@ -41,8 +42,8 @@ def row_of(world, name, tool, source):
 
 
 def measure_real(name, tool, folder):
-    recording = Recording(name, tool, folder)
-    return row_of("real", name, tool, recording.place("map") + frames(REAL[name])) if recording.is_there() else None
+    recording, source = real_walk(name, tool, folder)
+    return row_of("real", name, tool, source) if recording.is_there() else None
 
 
 def measure_room(seed, tool, folder):

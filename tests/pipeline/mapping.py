@@ -49,10 +49,15 @@ def row_of(world, name, kind, tool, source, folder):
             "%.2f" % score["rotation_worst_deg"], "%.0f" % summary["processor_seconds"]]
 
 
-def measure_real(name, kinds, tool, folder):
+def real_walk(name, tool, folder):
+    """The recording of a walk of REAL, and how the command line is told of the walk's frames."""
     of, selection = REAL[name]
     recording = Recording(of, tool, folder)
-    source = recording.place("map") + frames(selection)
+    return recording, recording.place("map") + frames(selection)
+
+
+def measure_real(name, kinds, tool, folder):
+    recording, source = real_walk(name, tool, folder)
     return [row_of("real", name, kind, tool, source, folder) for kind in kinds] if recording.is_there() else []
 
 
