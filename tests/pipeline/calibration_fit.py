@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from mapping import FRAMES, LAP_S, ROOMS, real_walk
+from mapping import FRAMES, LAP_S, ROOMS, real_walk, require_walks
 from recordings import HERE, run
 
 RESULTS = HERE / "calibration_fit.csv"
@@ -93,9 +93,7 @@ def measure_room(seed, tool, folder):
 
 
 def measure_real(name, tool, folder):
-    recording, (option, path, _, calibration, *selection) = real_walk(name, tool, folder)
-    if not recording.is_there():
-        return []
+    option, path, _, calibration, *selection = real_walk(name, tool, folder)
     truth = read(calibration)
     return rows_of("sound", name, tool, [option, path, *selection], calibration, truth, folder)
 
@@ -106,6 +104,7 @@ def main():
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [calibration_fit.csv]")
     parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(0, len(ROOMS) + 1), metavar="N", help="how many [12]")
     arguments = parser.parse_args()
+    require_walks(REAL)
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(scratch)
         jobs = [pool.submit(measure_real, name, arguments.spherecloud, folder) for name in REAL]

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from mapping import ROOMS, real_walk
+from mapping import ROOMS, real_walk, require_walks
 from recordings import HERE, run
 
 RESULTS = HERE / "guide.csv"
@@ -42,8 +42,7 @@ def row_of(world, name, tool, source):
 
 
 def measure_real(name, tool, folder):
-    recording, source = real_walk(name, tool, folder)
-    return row_of("real", name, tool, source) if recording.is_there() else None
+    return row_of("real", name, tool, real_walk(name, tool, folder))
 
 
 def measure_room(seed, tool, folder):
@@ -60,12 +59,13 @@ def main():
     parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(0, len(ROOMS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("--walks", type=pathlib.Path, help="a folder that keeps the simulated walks")
     arguments = parser.parse_args()
+    require_walks(REAL)
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.walks or pathlib.Path(scratch)
         rows = [measure_real(name, arguments.spherecloud, pathlib.Path(scratch)) for name in REAL]
         rows += [measure_room(seed, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
     with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *(row for row in rows if row)])
+        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import disturbed_poses
-from recordings import HERE, Recording, frames, run
+from recordings import HERE, Recording, frames, require, run
 
 RESULTS = HERE / "mapping.csv"
 ROOMS = list(range(6001, 6013))  # seeds of room and walk that nothing else uses
@@ -50,15 +50,18 @@ def row_of(world, name, kind, tool, source, folder):
 
 
 def real_walk(name, tool, folder):
-    """The recording of a walk of REAL, and how the command line is told of the walk's frames."""
+    """How the command line is told of a walk of REAL."""
     of, selection = REAL[name]
-    recording = Recording(of, tool, folder)
-    return recording, recording.place("map") + frames(selection)
+    return Recording(of, tool, folder).place("map") + frames(selection)
+
+
+def require_walks(names):
+    require(REAL[name][0] for name in names)
 
 
 def measure_real(name, kinds, tool, folder):
-    recording, source = real_walk(name, tool, folder)
-    return [row_of("real", name, kind, tool, source, folder) for kind in kinds] if recording.is_there() else []
+    source = real_walk(name, tool, folder)
+    return [row_of("real", name, kind, tool, source, folder) for kind in kinds]
 
 
 def measure_room(seed, kinds, tool, folder):
@@ -83,6 +86,7 @@ def main():
     parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(0, len(ROOMS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("--poses", nargs="+", default=KINDS, choices=KINDS, metavar="KIND", help="what the mapper is told [all]")
     arguments = parser.parse_args()
+    require_walks(REAL)
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(scratch)
         jobs = [pool.submit(measure_real, name, arguments.poses, arguments.spherecloud, folder) for name in REAL]

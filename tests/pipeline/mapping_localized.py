@@ -21,7 +21,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, Recording, every_other_block, frames, run
+from recordings import HERE, Recording, every_other_block, frames, require, run
 
 RESULTS = HERE / "mapping_localized.csv"
 ROOMS = range(6001, 6013)  # those of mapping.py
@@ -82,8 +82,6 @@ def with_found_poses(recording, tool, folder):
 
 def measure_real(name, keys, tool, folder):
     recording = Recording(name, tool, folder)
-    if not recording.is_there():
-        return
     of_map, of_queries = REAL[name]
     place = recording.place("map")
     places = {"given": place}
@@ -122,6 +120,7 @@ def main():
     parser.add_argument("--keys", type=int, default=len(NUMBERS), choices=range(1, len(NUMBERS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("--only", nargs="+", default=list(WALKS), choices=WALKS, metavar="NAME", help="what to measure; other rows stay [all]")
     arguments = parser.parse_args()
+    require(name for name in arguments.only if name in REAL)
     keys = NUMBERS[:arguments.keys]
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         def measure(name):

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from recordings import HERE, Recording, run
+from recordings import HERE, Recording, require, run
 
 RESULTS = HERE / "mapping_peers.csv"
 COLUMNS = ["recording", "mapper", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_similarity_m", "scale", "processor_s"]
@@ -52,10 +52,7 @@ class Walk:
 
 def prepare(name, tool, folder):
     """The frames of mapping.py's walk, in a folder of their own."""
-    recording = Recording(name, tool, folder)
-    if not recording.is_there():
-        return None
-    option, path, _, calibration = recording.place("map")
+    option, path, _, calibration = Recording(name, tool, folder).place("map")
     walk = folder / name
     run([tool, "convert", path, walk, "--calibration", calibration, "--json"])
     for listed in ("rgb.txt", "depth.txt"):
@@ -255,11 +252,12 @@ def main():
     arguments = parser.parse_args()
     if arguments.measure:
         return measure(*arguments.measure, arguments.spherecloud)
+    require(arguments.only)
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
         for name in arguments.only:
             walk = prepare(name, arguments.spherecloud, pathlib.Path(scratch))
-            for mapper in ["spherecloud", *PEERS] if walk else []:
+            for mapper in ["spherecloud", *PEERS]:
                 done = subprocess.run([sys.executable, __file__, "--spherecloud", arguments.spherecloud, "--measure", mapper, str(walk)],
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 if done.returncode:

@@ -43,11 +43,19 @@ def frames(selection):
 
 
 def absent(folder):
-    """Ends a test whose recording is not there."""
+    """Ends a test or a script whose recording is not there."""
     if os.environ.get("SPHC_REQUIRE_DATA", "0") not in ("", "0"):
         sys.exit("no recording at %s, and SPHC_REQUIRE_DATA says that it must be there" % folder)
     print("skipped: no recording at %s; set SPHC_DATA" % folder)
     sys.exit(SKIPPED)
+
+
+def require(names):
+    """Ends a script that measures, before it writes a ledger without their rows, when one of these recordings is absent."""
+    for name in names:
+        recording = Recording(name, None, pathlib.Path())
+        if not recording.is_there():
+            absent(recording.folder)
 
 
 def every_other_block(source, folder, block, remainder):
