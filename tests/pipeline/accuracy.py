@@ -24,7 +24,7 @@ import time
 sys.dont_write_bytecode = True
 import confidence
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, Recording, absent, frames, run
+from recordings import HERE, Recording, absent, frames, run, write_csv
 
 RESULTS, SPREAD, CONFIDENCE = HERE / "accuracy_keys.csv", HERE / "accuracy.csv", HERE / "confidence.csv"
 MODES = {
@@ -192,12 +192,7 @@ def read(path):
 
 
 def write(path, rows):
-    part = path.with_suffix(".part")
-    with part.open("w", newline="") as out:
-        writer = csv.DictWriter(out, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    part.replace(path)
+    write_csv(path, [list(rows[0]), *([row[column] for column in rows[0]] for row in rows)])
 
 
 def wanted_rows():

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """How well does `spherecloud map --refine-calibration` mend a calibration that is off?
 
-    calibration_fit.py --spherecloud BIN [--rooms N]      rewrites calibration_fit.csv, for review
+    calibration_fit.py --spherecloud BIN [--rooms N]      rewrites rows of calibration_fit.csv, for review
 
 Walks through simulated rooms are mapped with a calibration that is spoiled at random: before, as it is, and after it was refined.
 `sound` are the same walks and the real recordings with the calibration that they came with, which should stay.
 """
 import argparse
 import concurrent.futures
-import csv
 import json
 import math
 import os
@@ -19,7 +18,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from mapping import FRAMES, LAP_S, ROOMS, real_walk, require_walks
-from recordings import HERE, run
+from recordings import HERE, Ledger, run
 
 RESULTS = HERE / "calibration_fit.csv"
 REAL = ["redkitchen", "hololens", "hololens2"]  # walks of mapping.py
@@ -98,6 +97,10 @@ def measure_real(name, tool, folder):
     return rows_of("sound", name, tool, [option, path, *selection], calibration, truth, folder)
 
 
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 2, lambda row: ["spoiled", "sound"].index(row[0]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
@@ -105,13 +108,12 @@ def main():
     parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(0, len(ROOMS) + 1), metavar="N", help="how many [12]")
     arguments = parser.parse_args()
     require_walks(REAL)
+    ledger = ledger_of(arguments.results)
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(scratch)
         jobs = [pool.submit(measure_real, name, arguments.spherecloud, folder) for name in REAL]
         jobs += [pool.submit(measure_room, seed, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
-        rows = sorted((row for job in jobs for row in job.result()), key=lambda row: row[0], reverse=True)
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+        ledger.put([row for job in jobs for row in job.result()])
 
 
 if __name__ == "__main__":

@@ -2,10 +2,9 @@
 """Do frames end by their deadlines, and how many poses are left?  Maps of recordings, and spherecloud-lab deadline on their
 queries, on white noise, and on maps whose points all lie in one cell.
 
-    deadline.py --spherecloud BIN --lab BIN [--frames N] [--case C] [NAME...]      rewrites deadline.csv, for review
+    deadline.py --spherecloud BIN --lab BIN [--frames N] [--case C] [NAME...]      rewrites rows of deadline.csv, for review
 """
 import argparse
-import csv
 import pathlib
 import sys
 import tempfile
@@ -13,7 +12,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from accuracy import Place
 from negative import publish
-from recordings import HERE, run
+from recordings import HERE, Ledger, run
 
 RESULTS = HERE / "deadline.csv"
 NAMES = ["redkitchen", "hololens", "simulated"]
@@ -41,6 +40,10 @@ def rows_of(lab, place, file, options, frames):
         yield row | {"in_time_percent": "%.2f" % (100 * row["in_time"] / row["frames"]), "right_percent_of_free": share}
 
 
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 2, lambda row: (NAMES.index(row[0]), list(CASES).index(row[1])))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
@@ -49,20 +52,16 @@ def main():
     parser.add_argument("--case", choices=CASES, action="append", help="these alone")
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
     arguments = parser.parse_args()
-    table = []
+    ledger = ledger_of(RESULTS)
     for name in arguments.names or NAMES:
         with tempfile.TemporaryDirectory() as folder:
             place = Place(name, arguments.spherecloud, pathlib.Path(folder))
             file = publish(arguments.spherecloud, place, pathlib.Path(folder), "patchwork", 0)
             for case in arguments.case or CASES:
                 options, part = CASES[case]
-                for row in rows_of(arguments.lab, place, file, options, arguments.frames // part):
-                    table.append([name, case] + [row[column] for column in COLUMNS[2:]])
+                rows = rows_of(arguments.lab, place, file, options, arguments.frames // part)
+                ledger.put([name, case] + [row[column] for column in COLUMNS[2:]] for row in rows)
                 print(name, case, flush=True)
-    with RESULTS.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows(table)
 
 
 if __name__ == "__main__":

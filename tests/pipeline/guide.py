@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """What does the guide say of walks, and are its loops true?  Real recordings and simulated rooms through `spherecloud guide`.
 
-    guide.py --spherecloud BIN [--rooms N]      rewrites guide.csv, for review
+    guide.py --spherecloud BIN [--rooms N]      rewrites rows of guide.csv, for review
 
 The poses of a recording are used for one thing: how far the two views of a loop lie from where the guide has them.
 """
 import argparse
-import csv
 import json
 import pathlib
 import subprocess
@@ -15,7 +14,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from mapping import ROOMS, real_walk, require_walks
-from recordings import HERE, run
+from recordings import HERE, Ledger, run
 
 RESULTS = HERE / "guide.csv"
 REAL = ["redkitchen", "hololens", "hololens2"]  # walks of mapping.py
@@ -52,6 +51,10 @@ def measure_room(seed, tool, folder):
     return row_of("simulated", walk.name, tool, ["--recording", walk])
 
 
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 2)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
@@ -60,12 +63,12 @@ def main():
     parser.add_argument("--walks", type=pathlib.Path, help="a folder that keeps the simulated walks")
     arguments = parser.parse_args()
     require_walks(REAL)
+    ledger = ledger_of(arguments.results)
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.walks or pathlib.Path(scratch)
         rows = [measure_real(name, arguments.spherecloud, pathlib.Path(scratch)) for name in REAL]
         rows += [measure_room(seed, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    ledger.put(rows)
 
 
 if __name__ == "__main__":

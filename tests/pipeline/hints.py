@@ -2,12 +2,11 @@
 """Is a frame without a pose told why?  Frames under conditions, in maps of simulated rooms and of recordings, and how often
 each hint is set where its condition holds and where it does not.
 
-    hints.py --spherecloud BIN --lab BIN [--rooms N] [--keys N] [NAME...]      rewrites hints.csv, for review
+    hints.py --spherecloud BIN --lab BIN [--rooms N] [--keys N] [NAME...]      rewrites rows of hints.csv, for review
 
 Conditions are made of healthy frames by spherecloud-lab hints; those of the simulated rooms alone by options of simulate.
 """
 import concurrent.futures
-import csv
 import os
 import pathlib
 import sys
@@ -18,7 +17,7 @@ import room_options
 from accuracy import Place
 from negative import elsewhere_of, publish
 from private_key import NUMBERS, key_of
-from recordings import HERE, run
+from recordings import HERE, Ledger, run
 
 RESULTS = HERE / "hints.csv"
 ROOMS = list(range(4001, 4013))  # seeds of room and walk that nothing else uses
@@ -105,30 +104,28 @@ def add(sums, key, row):
 
 
 def measure(arguments):
-    """All sums, anew after each room and recording."""
-    sums = {}
+    """The sums of the rooms, and of each recording, when all is in."""
     with room_options.folder_of(arguments.keep) as folder:
         tools = arguments.spherecloud, arguments.lab
         if "rooms" in arguments.names:
+            sums = {}
             with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
                 list(pool.map(lambda seed: Room(tools[0], folder, seed).query(), ROOMS))
                 for rows in pool.map(lambda seed: list(rows_of_room(*tools, folder, seed)), ROOMS[:arguments.rooms]):
                     for key, row in rows:
                         add(sums, key, row)
-                    yield sums
+            yield sums
         for name in [name for name in arguments.names if name != "rooms"]:
+            sums = {}
             with tempfile.TemporaryDirectory() as own:
                 for key, row in rows_of_recording(*tools, pathlib.Path(own), name, arguments.keys):
                     add(sums, key, row)
-                yield sums
+            yield sums
 
 
-def write(path, sums):
-    with path.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for key, row in sums.items():
-            writer.writerow([*key, row["maps"], *(row[name] for name in COUNTS)])
+def ledger_of(path):
+    places = ["rooms", *RECORDINGS]  # and others, which may be named
+    return Ledger(path, COLUMNS, 1, lambda row: places.index(row[0]) if row[0] in places else len(places))
 
 
 def main():
@@ -137,8 +134,9 @@ def main():
     parser.add_argument("--keys", type=int, default=len(NUMBERS), choices=range(1, len(NUMBERS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("names", nargs="*", default=["rooms", *RECORDINGS], metavar="NAME", help="rooms, or recordings [all]")
     arguments = parser.parse_args()
+    ledger = ledger_of(arguments.results)
     for sums in measure(arguments):
-        write(arguments.results, sums)
+        ledger.put([*key, row["maps"], *(row[name] for name in COUNTS)] for key, row in sums.items())
 
 
 if __name__ == "__main__":

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """How well are walks mapped?  Real recordings and simulated rooms through `spherecloud map --score`.
 
-    mapping.py --spherecloud BIN [--rooms N] [--poses KIND ...]      rewrites mapping.csv, for review
+    mapping.py --spherecloud BIN [--rooms N] [--poses KIND ...]      rewrites rows of mapping.csv, for review
 
 The poses of a recording are compared with those that were found.  KIND is what the mapper is told: none, or those poses
-disturbed as disturbed_poses.py says.  Rows of other kinds stay as they are.
+disturbed as disturbed_poses.py says.  Rows of other kinds and rooms stay as they are.
 """
 import argparse
 import concurrent.futures
-import csv
 import os
 import pathlib
 import sys
@@ -16,7 +15,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import disturbed_poses
-from recordings import HERE, Recording, frames, require, run
+from recordings import HERE, Ledger, Recording, frames, require, run
 
 RESULTS = HERE / "mapping.csv"
 ROOMS = list(range(6001, 6013))  # seeds of room and walk that nothing else uses
@@ -71,12 +70,8 @@ def measure_room(seed, kinds, tool, folder):
     return [row_of("simulated", walk.name, kind, tool, ["--recording", walk], folder) for kind in kinds]
 
 
-def kept_rows(path, kinds):
-    """Rows of the file that are not measured anew."""
-    if not path.exists():
-        return []
-    with path.open(newline="") as file:
-        return [[row.get(column, "") for column in COLUMNS] for row in csv.DictReader(file) if row.get("poses") not in kinds]
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 3, lambda row: (row[0], KINDS.index(row[2])))
 
 
 def main():
@@ -87,14 +82,12 @@ def main():
     parser.add_argument("--poses", nargs="+", default=KINDS, choices=KINDS, metavar="KIND", help="what the mapper is told [all]")
     arguments = parser.parse_args()
     require_walks(REAL)
+    ledger = ledger_of(arguments.results)
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(scratch)
         jobs = [pool.submit(measure_real, name, arguments.poses, arguments.spherecloud, folder) for name in REAL]
         jobs += [pool.submit(measure_room, seed, arguments.poses, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
-        rows = kept_rows(arguments.results, arguments.poses) + [row for job in jobs for row in job.result()]
-    rows.sort(key=lambda row: (row[0], KINDS.index(row[2])))
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+        ledger.put([row for job in jobs for row in job.result()])
 
 
 if __name__ == "__main__":

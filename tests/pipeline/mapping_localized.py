@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How well does one localize in maps of walks without poses?  Beside maps of the same frames with the poses that the recordings hold.
 
-    mapping_localized.py --spherecloud BIN [--keys N] [--only NAME ...]      rewrites mapping_localized.csv, for review
+    mapping_localized.py --spherecloud BIN [--keys N] [--only NAME ...]      rewrites rows of mapping_localized.csv, for review
 
 A recording is mapped once by `map`, which does not read its poses ("found"), and once by `build`, which trusts them ("given").
 Both models are published by each key.  Frames that are in neither map are localized one by one, and both are compared with
@@ -11,7 +11,6 @@ map is the better one beside its own kind of poses, the two trajectories differ,
 """
 import argparse
 import concurrent.futures
-import csv
 import os
 import pathlib
 import shutil
@@ -21,7 +20,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, Recording, every_other_block, frames, require, run
+from recordings import HERE, Ledger, Recording, every_other_block, frames, require, run
 
 RESULTS = HERE / "mapping_localized.csv"
 ROOMS = range(6001, 6013)  # those of mapping.py
@@ -105,12 +104,8 @@ def line_of(row):
             "p90 %s cm, median %s deg, p90 %s deg" % tuple(row))
 
 
-def other_rows(path, names):
-    """Rows of the file that are not measured anew."""
-    if not path.exists():
-        return []
-    with path.open(newline="") as file:
-        return [[row[column] for column in COLUMNS] for row in csv.DictReader(file) if row["recording"] not in names]
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 1, lambda row: list(WALKS).index(row[0]))
 
 
 def main():
@@ -122,6 +117,7 @@ def main():
     arguments = parser.parse_args()
     require(name for name in arguments.only if name in REAL)
     keys = NUMBERS[:arguments.keys]
+    ledger = ledger_of(arguments.results)
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         def measure(name):
             folder = pathlib.Path(scratch) / name
@@ -132,11 +128,7 @@ def main():
                 rows.append(row)
             return rows
 
-        rows = [row for rows in pool.map(measure, arguments.only) for row in rows]
-    rows = other_rows(arguments.results, arguments.only) + rows
-    rows.sort(key=lambda row: list(WALKS).index(row[0]))
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+        ledger.put([row for rows in pool.map(measure, arguments.only) for row in rows])
 
 
 if __name__ == "__main__":

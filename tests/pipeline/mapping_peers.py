@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """How do others map the walks of mapping.py?  Real recordings through `spherecloud map`, COLMAP and Open3D, one after another.
 
-    mapping_peers.py --spherecloud BIN [--only NAME...]      rewrites mapping_peers.csv, for review
+    mapping_peers.py --spherecloud BIN [--only NAME...]      rewrites rows of mapping_peers.csv, for review
 
 It needs `pip install pycolmap open3d numpy opencv-python-headless`.  COLMAP has no depth: its scale is the median, over the points
 that it triangulated, of measured depth by its own.  Open3D's is RGB-D odometry between neighbours, loops by odometry
 between frames that its own poses bring near, and a pose graph over them.
 """
 import argparse
-import csv
 import json
 import pathlib
 import resource
@@ -17,7 +16,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from recordings import HERE, Recording, require, run
+from recordings import HERE, Ledger, Recording, require, run
 
 RESULTS = HERE / "mapping_peers.csv"
 COLUMNS = ["recording", "mapper", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_similarity_m", "scale", "processor_s"]
@@ -243,6 +242,10 @@ def measure(mapper, folder, tool):
                       "%.0f" % spent_s]))
 
 
+def ledger_of(path):
+    return Ledger(path, COLUMNS, 2, lambda row: list(FRAMES).index(row[0]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
@@ -253,7 +256,7 @@ def main():
     if arguments.measure:
         return measure(*arguments.measure, arguments.spherecloud)
     require(arguments.only)
-    rows = []
+    ledger = ledger_of(arguments.results)
     with tempfile.TemporaryDirectory() as scratch:
         for name in arguments.only:
             walk = prepare(name, arguments.spherecloud, pathlib.Path(scratch))
@@ -262,10 +265,9 @@ def main():
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 if done.returncode:
                     sys.exit("%s failed on %s\n%s" % (mapper, name, done.stderr[-2000:]))
-                rows.append(json.loads(done.stdout.splitlines()[-1]))
-                print(*rows[-1], flush=True)
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+                row = json.loads(done.stdout.splitlines()[-1])
+                print(*row, flush=True)
+                ledger.put([row])
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ For each world and each of its rooms, lap one is mapped and a part of lap two is
 keys that differ from room to room: frame by frame at 5 Hz, and at the 30 Hz of a headset in tracking, without and with odometry.
 A world is an option of `simulate`, or several at once; no two worlds share a room.
 So are frames of another room of this world, of which no pose is right: "elsewhere".  nasty.csv has a row for each world, number of
-frames in the map, kind of fakes and mode, and one for all of them.  Rows of worlds that are not measured stay.  Every accepted
+frames in the map, kind of fakes and mode, and one for all of them.  Rows of worlds stay until all their rooms are measured.  Every accepted
 pose that is wrong is printed with the commands that give it again.  --frames writes a line for every frame.  --keep keeps
 recordings, maps and answers, and takes those that are there: answers only of the same command.
 """
@@ -28,7 +28,7 @@ import confidence
 import room_options
 from accuracy import WORST_CM, WORST_DEG
 from private_key import key_of
-from recordings import HERE, run
+from recordings import HERE, run, write_csv
 
 RESULTS = HERE / "nasty.csv"
 FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50  # seeds of rooms and walks, which nothing else uses; of each world; to another room
@@ -229,20 +229,23 @@ def localize_room(tool, keep, world, number):
 
 
 def measure(tool, keep, worlds, count, lines):
-    """The rows so far, anew after each room; a room on each processor."""
+    """A world and its rows, when all its rooms are in; a room on each processor."""
     found = collections.defaultdict(list)
-    tasks = [(world, number) for number in range(count) for world in worlds]
+    tasks = [(world, number) for world in worlds for number in range(count)]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for at, frames in enumerate(pool.map(lambda task: localize_room(tool, keep, *task), tasks)):
+            world, number = tasks[at]
             for frame in frames:
-                found[frame.world, frame.variant].append(frame)
+                found[frame.variant].append(frame)
                 if lines:
                     lines.writerow(line_of(frame))
                 if is_wrong(frame):
                     tell(frame)
             if sys.stderr.isatty():
                 print("\r%d of %d rooms" % (at + 1, len(tasks)), end="", file=sys.stderr)
-            yield [row_of(world, variant, of_row) for (world, variant), of_row in found.items()]
+            if number + 1 == count:
+                yield world, [row_of(world, variant, of_row) for variant, of_row in found.items()]
+                found.clear()
 
 
 def read(path):
@@ -255,10 +258,7 @@ def read(path):
 def write(path, rows):
     order = list(WORLDS)
     rows = sorted(rows, key=lambda row: order.index(row["world"]))  # stable
-    with path.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows([sum_of(rows), *rows])
+    write_csv(path, [COLUMNS, *(row.values() for row in [sum_of(rows), *rows])])
 
 
 def main():
@@ -269,9 +269,10 @@ def main():
     lines = csv.writer(arguments.frames, lineterminator="\n") if arguments.frames else None
     if lines:
         lines.writerow(LINE)
-    others = [row for row in read(arguments.results) if row["world"] not in arguments.worlds]
-    for rows in measure(arguments.spherecloud, arguments.keep, arguments.worlds, arguments.rooms, lines):
-        write(arguments.results, others + rows)
+    rows = read(arguments.results)
+    for world, fresh in measure(arguments.spherecloud, arguments.keep, arguments.worlds, arguments.rooms, lines):
+        rows = [row for row in rows if row["world"] != world] + fresh
+        write(arguments.results, rows)
 
 
 if __name__ == "__main__":

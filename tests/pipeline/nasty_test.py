@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """nasty.py counts what it should: poses, wrong ones, those of another room; and keeps the rows that it did not measure."""
+import contextlib
+import io
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 import nasty
@@ -47,6 +50,14 @@ class Rows(unittest.TestCase):
             self.assertEqual([row["world"] for row in nasty.read(path)], ["plain", "hall"])
             path.write_text("world,frames\nplain,3\n")
             self.assertEqual(nasty.read(path), [], "of another layout")
+
+    def test_a_world_is_given_when_all_its_rooms_are_in(self):
+        def room(tool, keep, world, number):
+            return [frame(world, nasty.seed_of(world, number))]
+
+        with unittest.mock.patch("nasty.localize_room", room), contextlib.redirect_stderr(io.StringIO()):
+            found = list(nasty.measure("", None, ["hall", "plain"], 3, None))
+        self.assertEqual([("hall", ["3"]), ("plain", ["3"])], [(world, [row["rooms"] for row in rows]) for world, rows in found])
 
     def test_no_two_rooms_are_the_same(self):
         seeds = [nasty.seed_of(world, number) + other for world in nasty.WORLDS for number in range(nasty.ROOMS)

@@ -1,8 +1,9 @@
-"""The recordings that accuracy.py and frame.py measure on, as the command line is told of them.
+"""The recordings that scripts measure on, as the command line is told of them, and the ledgers that they write.
 
 Real ones are looked for in $SPHC_DATA, else in ../shared/data beside the repository.  Where they are absent a test is
 skipped, unless $SPHC_REQUIRE_DATA says that they must be there.
 """
+import csv
 import json
 import os
 import pathlib
@@ -68,6 +69,42 @@ def every_other_block(source, folder, block, remainder):
         for line in kept:
             shutil.copyfile(source / line.split()[1], folder / line.split()[1])
     shutil.copyfile(source / "groundtruth.txt", folder / "groundtruth.txt")
+
+
+def write_csv(path, rows):
+    """Whole, or not at all."""
+    part = path.with_suffix(".part")
+    with part.open("w", newline="") as out:
+        csv.writer(out, lineterminator="\n").writerows(rows)
+    part.replace(path)
+
+
+class Ledger:
+    """A CSV file of figures of which a part is measured anew: other rows stay.  The first `named` columns say what a row is of; rows
+    are in the order of `order`, a function of a row, else as they come."""
+
+    def __init__(self, path, columns, named, order=None):
+        self.path, self.columns, self.named, self.order = path, columns, named, order
+        self.groups = {}
+        if not path.exists():
+            return
+        with path.open(newline="") as file:
+            head, *rows = csv.reader(file)
+        if head != columns:
+            sys.exit("%s has other columns than this script writes; remove it and measure all of it" % path)
+        self.groups = self.grouped(rows)
+
+    def grouped(self, rows):
+        groups = {}
+        for row in rows:
+            groups.setdefault(tuple(row[:self.named]), []).append(row)
+        return groups
+
+    def put(self, rows):
+        """Writes them in the place of those that are of the same."""
+        self.groups |= self.grouped(rows)
+        every = [row for group in self.groups.values() for row in group]
+        write_csv(self.path, [self.columns, *(sorted(every, key=self.order) if self.order else every)])
 
 
 class Recording:
