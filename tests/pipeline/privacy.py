@@ -90,10 +90,15 @@ def name_of(row):
 
 
 def means(of_keys):
+    """Of each figure, which every key must give."""
+    of_keys = list(of_keys)
     values, first = collections.defaultdict(list), {}
     for row in (row for rows in of_keys for row in rows):
         values[name_of(row)].append(float(row["value"]))
         first.setdefault(name_of(row), row)
+    for name, found in values.items():
+        if len(found) != len(of_keys):
+            sys.exit("%s is there %d times under %d keys, so it has no mean of all" % (" ".join(filter(None, name)), len(found), len(of_keys)))
     return {name: {**row, "value": "%.4g" % mean(values[name])} for name, row in first.items()}
 
 
