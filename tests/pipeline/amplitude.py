@@ -17,7 +17,7 @@ from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "amplitude.csv"
-ROOMS = list(range(5001, 5013))  # seeds of room and walk that nothing else uses
+ROOMS = list(range(5001, 5013))  # seeds of room and walk; rig.py and the flat of nasty.py have them too
 FAINT = 75  # SPHC_SIMULATED_FAINT
 LAP_S, FRAMES = 16, 30
 ETA = 0.33

@@ -20,7 +20,7 @@ from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of,
 
 RESULTS = HERE / "cameras.csv"
 DEVICES = "headset", "phone", "wide", "glasses"
-ROOMS, FIRST_SEED, ELSEWHERE = 12, 7001, 50  # seeds that nothing else uses; from a room to the one that is elsewhere
+ROOMS, FIRST_SEED, ELSEWHERE = 12, 7001, 50  # late_depth.py has the same seeds; from a room to the one that is elsewhere
 LAP_S, MAP_FRAMES = 16, 10
 HARD = ["--with", "hands,feet,carpet,bare"]
 # What is asked: frames, how many a second, and how `localize` looks at them.

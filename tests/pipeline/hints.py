@@ -20,7 +20,7 @@ from private_key import NUMBERS, key_of
 from recordings import HERE, Ledger, run
 
 RESULTS = HERE / "hints.csv"
-ROOMS = list(range(4001, 4013))  # seeds of room and walk that nothing else uses
+ROOMS = list(range(4001, 4013))  # seeds of room and walk; maps.py and the world of windows of nasty.py have them too
 RECORDINGS = ["redkitchen", "hololens", "hololens_blocks"]
 SEQUENCES = 2  # of 30 frames
 ETA = 0.33

@@ -29,7 +29,7 @@ import spherecloud
 from spherecloud import Frame, Localizer, Map, Mode, Prior, Recording
 
 RESULTS = HERE / "late_depth.csv"
-ROOMS = list(range(7001, 7013))  # seeds of room and walk that nothing else uses
+ROOMS = list(range(7001, 7013))  # seeds of room and walk; cameras.py has them too
 LAP_S, MAP_FRAMES, RATE, QUERY_FRAMES = 16, 30, 30, 66
 SHORT_FRAMES, SHORT_RATE = 132, 60  # of the short walk, in lap one where the query is in lap two
 FIRST, STEP = 6, 3  # frames that are localized: depth of six frames before is there

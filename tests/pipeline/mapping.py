@@ -18,7 +18,7 @@ import disturbed_poses
 from recordings import HERE, Ledger, Recording, frames, require, run
 
 RESULTS = HERE / "mapping.csv"
-ROOMS = list(range(6001, 6013))  # seeds of room and walk that nothing else uses
+ROOMS = list(range(6001, 6013))  # seeds of room and walk; guide.py, calibration_fit.py and the other scripts of mapping have them too
 FRAMES, LAP_S = 100, 16  # one lap
 # Recording and frames of each: what maps are made of elsewhere, all of the walk, and a third of it, which is a walk of quick turns.
 REAL = {"redkitchen": ("redkitchen", (0, 597, 3)), "hololens": ("hololens", (0, 199, 1)), "hololens2": ("hololens2", (0, 999, 1)),

@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 from recordings import HERE, run
 
 RESULTS = HERE / "mapping_flats.csv"
-FIRST_SEED, RATE_HZ, FRAMES = 8001, 4, 660
+FIRST_SEED, RATE_HZ, FRAMES = 8001, 4, 660  # rolling.py has the same seeds, of rooms
 COLUMNS = ["flat", "frames", "frames_mapped", "parts", "loops", "ate_rigid_m", "worst_m", "revisit_worst_m", "ate_similarity_m", "scale"]
 
 

@@ -23,7 +23,7 @@ from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "maps.csv"
-ROOMS, OF_DOUBLES, FIRST_SEED = 64, 4, 4001  # maps in all; a double for each so many rooms; seeds that nothing else uses
+ROOMS, OF_DOUBLES, FIRST_SEED = 64, 4, 4001  # maps in all; a double for each so many rooms; hints.py and nasty.py have seeds of these too
 LAP_S, MAP_FRAMES, QUERY_FRAMES, QUERY_HZ = 16, 30, 6, 2.0
 ETA, FAKES = 0.33, "patchwork"
 COLUMNS = ["maps", "frames", "localized_percent", "within_5cm_5deg_percent", "right_map_percent_of_localized", "wrong_accepted",

@@ -31,7 +31,9 @@ from private_key import key_of
 from recordings import HERE, run, write_csv
 
 RESULTS = HERE / "nasty.csv"
-FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50  # seeds of rooms and walks, which nothing else uses; of each world; to another room
+# Seeds of rooms and walks, rooms of each world, and from one to another room.  Other scripts have some of the seeds too: moving.py
+# the first, hints.py and maps.py those of the world of windows, rig.py and amplitude.py those of the flat.
+FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50
 KEYS_A_ROOM = 2
 ETA = 0.33
 FAKES = "patchwork", "gaussian"

@@ -21,7 +21,7 @@ from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "rig.csv"
-ROOMS = list(range(5001, 5013))  # seeds of room, walk and key that nothing else uses
+ROOMS = list(range(5001, 5013))  # seeds of room and walk, which amplitude.py and the flat of nasty.py have too; and of key
 LAP_S, MAP_FRAMES, VIEWS = 16, 100, 25
 ETA, FAKES = 0.33, "patchwork"
 COLUMNS = ["view", "cameras", "tof", "frames", "localized_percent", "within_5cm_5deg_percent", "worst_room_percent", "wrong_accepted",

@@ -20,7 +20,7 @@ from recordings import HERE
 from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of, write_rows
 
 RESULTS = HERE / "rolling.csv"
-ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # from a room to the one that is elsewhere
+ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # mapping_flats.py has the same seeds; from a room to the one that is elsewhere
 LAP_S, MAP_FRAMES, FRAMES, RATE_HZ, ELSEWHERE_FRAMES = 10, 10, 60, 30, 15
 HARD = ["--with", "hands,feet,carpet,bare"]
 ROW_TIME_NS = {"headset": 41667, "phone": 18519}  # 20 ms for 480 and 1080 rows
