@@ -55,8 +55,10 @@ class FrameCommand {
 
   std::vector<FrameTable> measure() {
     std::vector<FrameTable> tables;
+    Unreadable unreadable = saidBy(console_);
     for (const std::string &path : options_.maps) {
-      tables.push_back(measureMap(path));
+      tables.push_back(measureMap(path, unreadable));
+      unreadable = [](const std::string &) {};  // the same frames in every map
       console_.say("\n" + frameTableText(tables.back()));
     }
     return tables;
@@ -89,20 +91,26 @@ class FrameCommand {
     mapping.calibration = options_.recording.calibration;
     const auto reader = openRecording(mapping);
     const uint32_t count = reader->frameCount();
+    const Unreadable unreadable = saidBy(console_);
     ProgressBar bar("peers map ");
     for (uint32_t i = 0; i < count; ++i) {
       FrameCase frame;
-      if (readFrame(reader.get(), i, &frame))
+      if (readFrame(reader.get(), i, unreadable, &frame))
         peers_->addMappingFrame(frame.image, frame.truth_camera_from_world.inverse());
       bar.show(i + 1, count);
     }
   }
 
-  // False when the frame cannot be read or has no pose.
-  static bool readFrame(RecordingReader *reader, uint32_t index, FrameCase *frame) {
+  // False when the frame has no pose or cannot be read, which is said.
+  static bool readFrame(RecordingReader *reader, uint32_t index, const Unreadable &unreadable, FrameCase *frame) {
     const std::optional<sphc_rigid> world_from_camera = reader->worldFromCamera(index);
-    const std::optional<sphc_localizer_frame> image = world_from_camera ? reader->tryRead(index) : std::nullopt;
-    if (!image) return false;
+    if (!world_from_camera) return false;
+    std::string why;
+    const std::optional<sphc_localizer_frame> image = reader->tryRead(index, &why);
+    if (!image) {
+      unreadable(why);
+      return false;
+    }
     frame->image = *image;
     frame->index = index;
     frame->truth_camera_from_world = rigidFromC(*world_from_camera).inverse();
@@ -121,15 +129,15 @@ class FrameCommand {
     return chosenByName(options_.only, std::move(all));
   }
 
-  FrameTable measureMap(const std::string &path) {
+  FrameTable measureMap(const std::string &path, const Unreadable &unreadable) {
     const OwnedMap map = openOwnedMap(path);
     const std::vector<FrameVariant> variants = variantsFor(map);
     RecordingReader *reader = reader_.get();
     PlayedOdometry odometry(reader);
     const FrameBenchInput input = {reader->frameCount(), options_.repeats,
-                                   [reader, &odometry](uint32_t i, FrameCase *frame) {
+                                   [reader, &odometry, &unreadable](uint32_t i, FrameCase *frame) {
                                      frame->odometry = odometry.at(i);
-                                     return readFrame(reader, i, frame);
+                                     return readFrame(reader, i, unreadable, frame);
                                    }};
     ProgressBar bar("measuring ");
     FrameTable table = {
