@@ -148,6 +148,7 @@ Command adviseCommand(CLI::App *root) {
   app->description("Look at a recording before its map is released.\n\n" + std::string(kAdviseHelp));
   app->footer(kAdviseExample);
   addRecordingOptions(app, &options->recording);
+  addPosesOption(app, &options->recording);
   addDepthRangeOptions(app, &options->advice.import.depth_min_m, &options->advice.import.depth_max_m);
   app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
       ->capture_default_str()

@@ -324,8 +324,10 @@ Command auditCommand(CLI::App *root) {
   app->add_option("map", options->map, "Map file")->required()->type_name("MAP");
   app->add_option("--truth", options->truth, "Ledger that released the map")->type_name("FILE");
   addRecordingOptions(app, &options->recording);
+  addPosesOption(app, &options->recording);
   CLI::Option *recording = app->get_option("--recording")->required(false);
-  for (const char *name : {"--calibration", "--first", "--last", "--step"}) app->get_option(name)->needs(recording);
+  for (const char *name : {"--calibration", "--first", "--last", "--step", "--poses-from"})
+    app->get_option(name)->needs(recording);
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")
       ->capture_default_str()

@@ -105,7 +105,7 @@ void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader
   if (poses == 0 || (!options.odometry && options.owner_notes.empty())) return;
   for (uint32_t i = 0; i < reader.frameCount(); ++i)
     if (reader.worldFromCamera(i)) return;
-  console.warn("note: none of the recording's " + counted(poses, "pose") + kIsOfOtherTimes);
+  console.warn("note: none of " + counted(poses, "pose") + kIsOfOtherTimes);
 }
 
 Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {
@@ -310,6 +310,7 @@ Command localizeCommand(CLI::App *root) {
   app->description("Find where the camera was, in a map.\n\n" + std::string(kLocalizeHelp));
   app->footer(kLocalizeExample);
   addRecordingOptions(app, &options->recording);
+  addPosesOption(app, &options->recording);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")
       ->required()
       ->expected(1)

@@ -18,6 +18,7 @@ std::string ordinal(uint32_t n) {
 recording::ReaderOptions readerOptions(const RecordingOptions &options) {
   recording::ReaderOptions chosen;
   chosen.calibration = options.calibration;
+  chosen.poses = options.poses;
   chosen.selection = {options.first, options.last, options.step};
   return chosen;
 }

@@ -11,7 +11,8 @@ namespace sphc::host {
 using recording::RecordingReader;
 
 struct RecordingOptions {
-  std::string folder, calibration;  // no calibration: the recording's own
+  std::string folder;
+  std::string calibration, poses;  // files; none: the recording's own
   uint32_t first = 0, last = UINT32_MAX, step = 1;
 
   bool isPart() const { return first > 0 || last < UINT32_MAX || step > 1; }

@@ -99,11 +99,11 @@ class Census {
       throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
                                " with a pose the first says: " + s.first_unreadable);
     if (s.frames_used == 0 && told_poses > 0)
-      throw std::runtime_error("none of the recording's " + counted(told_poses, "pose") + kIsOfOtherTimes);
+      throw std::runtime_error("none of " + counted(told_poses, "pose") + kIsOfOtherTimes);
     if (s.frames_used == 0)
       throw std::runtime_error(
-          "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
-          "groundtruth.txt); spherecloud map finds them where there are none");
+          "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt, "
+          "groundtruth.txt or --poses-from FILE); spherecloud map finds them where there are none");
     if (poses_ > 1 && !moved_)
       throw std::runtime_error("all " + count(poses_) +
                                " poses are the same; a map needs the pose that each frame was really taken from");

@@ -9,8 +9,16 @@ namespace sphc::recording {
 
 namespace {
 
+// In place of the recording's own.
+void takePoses(const std::filesystem::path &file, Recording *recording) {
+  recording->bad_pose_count = 0;
+  recording->poses = readTumPoses(file, &recording->bad_pose_count);
+  recording->pose_fault.clear();
+}
+
 Recording openSelected(const std::filesystem::path &path, const ReaderOptions &options) {
   Recording recording = openRecording(path);
+  if (!options.poses.empty()) takePoses(options.poses, &recording);
   selectFrames(options.selection, options.pair_tolerance_ns, recording);
   return recording;
 }

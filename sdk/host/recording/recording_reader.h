@@ -11,6 +11,7 @@ namespace sphc::recording {
 
 struct ReaderOptions {
   std::filesystem::path calibration;  // empty: the recording's own
+  std::filesystem::path poses;        // in TUM format; empty: the recording's own
   Selection selection;
   sphc_format color_format = SPHC_FORMAT_BGR8;
   int64_t pair_tolerance_ns = 20000000;  // between colour and depth of a frame

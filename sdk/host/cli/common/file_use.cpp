@@ -128,6 +128,7 @@ void FileUse::reads(const std::string &option, const std::string &path) {
 void FileUse::reads(const RecordingOptions &recording) {
   reads("--recording", recording.folder);
   reads("--calibration", recording.calibration);
+  reads("--poses-from", recording.poses);
 }
 
 void FileUse::reads(const RigOptions &rig) {

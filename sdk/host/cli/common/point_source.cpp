@@ -213,7 +213,8 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
 }
 
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
-  addRecordingOptions(app, &source->recording)->required(false);
+  CLI::Option *recording = addRecordingOptions(app, &source->recording)->required(false);
+  addPosesOption(app, &source->recording)->needs(recording);
   addMappingOptions(app, &source->import);
   addColmapOptions(app, source);
   auto *model =

@@ -37,6 +37,15 @@ CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
   return recording;
 }
 
+CLI::Option *addPosesOption(CLI::App *app, RecordingOptions *options) {
+  return app
+      ->add_option(
+          "--poses-from", options->poses,
+          "File of poses in TUM format, in place of the recording's: world_from_camera of the colour camera")
+      ->type_name("FILE")
+      ->group(kGroup);
+}
+
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each) {
   app->add_option(
          "-r,--recording", *recordings,

@@ -14,6 +14,8 @@ namespace sphc::host {
 void addFrameOptions(CLI::App *app, RecordingOptions *options);
 // These too.  Gives --recording, which is required unless the caller says otherwise.
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
+// Of a command that uses its poses.
+CLI::Option *addPosesOption(CLI::App *app, RecordingOptions *options);
 // --recording as often as there are recordings; the other options are of each of them.
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each);
 

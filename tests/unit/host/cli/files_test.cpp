@@ -498,10 +498,31 @@ TEST_F(FilesTest, OfARecordingWithoutPosesNoneIsSpokenOf) {
   EXPECT_THAT(answer.err, HasSubstr("--align: the recording holds no poses, so no errors are known"));
 }
 
+TEST_F(FilesTest, PosesOfAFileAreTakenInPlaceOfTheRecordings) {
+  fs::copy(at("walk"), at("untold"), fs::copy_options::recursive);
+  fs::remove(at("untold/groundtruth.txt"));
+  const std::string untold = " --json -r " + at("untold"), poses = " --poses-from " + at("walk/groundtruth.txt");
+  const std::string build = "build -m " + at("again.sphc") + " --ledger " + at("again");
+  EXPECT_THAT(runCommand(build + untold).err, HasSubstr("--poses-from FILE"));
+  const Answer built = runCommand(build + untold + poses);
+  ASSERT_EQ(built.exit_code, kExitDone) << built.err;
+  EXPECT_EQ(nlohmann::json::parse(built.out)["frames_used"], 3);
+  const Answer found =
+      runCommand("localize -m " + at("room.sphc") + " --owner-note " + at("room.sphc.owner.json") + untold + poses);
+  ASSERT_EQ(found.exit_code, kExitDone) << found.err;
+  EXPECT_EQ(nlohmann::json::parse(found.out)["within_5cm_5deg"], 3);
+  const Answer missing = runCommand(build + untold + " --poses-from " + at("nothing.tum"));
+  EXPECT_EQ(missing.exit_code, kExitFailure);
+  EXPECT_THAT(missing.err, HasSubstr("nothing.tum"));
+  expectKept(at("walk/groundtruth.txt"),
+             "localize -m " + at("room.sphc") + untold + poses + " --trajectory " + at("walk/groundtruth.txt"),
+             kExitUsage, "--poses-from reads");
+}
+
 TEST_F(FilesTest, PosesOfAnotherClockAreSaid) {
   fs::copy(at("walk"), at("apart"), fs::copy_options::recursive);
   put("apart/groundtruth.txt", "1700000000.5 0 0 0 0 0 0 1\n1700000001.5 0 0 0 0 0 0 1\n");
-  const std::string localize = " -m " + at("room.sphc"), note = "none of the recording's 2 poses is of the time";
+  const std::string localize = " -m " + at("room.sphc"), note = "none of 2 poses is of the time";
   for (const std::string &option : {std::string(" --odometry"), " --owner-note " + at("room.sphc.owner.json")}) {
     EXPECT_THAT(runCommand("localize -r " + at("apart") + localize + option).err, HasSubstr(note));
     EXPECT_THAT(runCommand("localize -r " + at("walk") + localize + option).err, testing::Not(HasSubstr(note)));
