@@ -203,9 +203,10 @@ class Localizer:
         number = whole(map_id, "map_id")
         with self._locating:
             owned = self._alive()
+            before = owned.keeps.get(number)
+            owned.keeps[number] = kept, before  # both, as an interrupt may come up right after the call
             status = self._c.sphc_localizer_set_map(owned.pointer, number, kept.pointer)
-            if status >= 0:  # it has the map, whatever a callback raised
-                owned.keeps[number] = kept
+            owned.keeps[number] = kept if status >= 0 else before  # it has the map, whatever a callback raised
             self._check(status)
 
     def remove_map(self, map_id: int) -> None:
@@ -215,7 +216,7 @@ class Localizer:
             owned = self._alive()
             status = self._c.sphc_localizer_remove_map(owned.pointer, number)
             if status >= 0:
-                del owned.keeps[number]
+                owned.keeps.pop(number, None)
             self._check(status)
 
     def set_map_transform(self, map_id: int, common_from_map: Rigid | None, rotation_sigma_rad: float = 0.0,

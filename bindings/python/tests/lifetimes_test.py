@@ -34,6 +34,41 @@ class Lifetimes(unittest.TestCase):
         made.close()
         self.assertIsNone(kept[2]())
 
+    def test_an_interrupt_right_after_a_map_is_set(self):
+        class Interrupted:
+            """The library, where a signal comes while a map is set: Python raises it when the call is over."""
+
+            def __getattr__(self, name):
+                return getattr(library, name)
+
+            def sphc_localizer_set_map(self, *arguments):
+                library.sphc_localizer_set_map(*arguments)
+                raise KeyboardInterrupt
+        made, room = session.localizer(), sphc.Map.open(session.MAP)
+        library, kept = made._c, weakref.ref(room.owned())
+        made._c = Interrupted()
+        self.assertRaises(KeyboardInterrupt, made.set_map, session.MAP_ID, room)
+        made._c = library
+        del room
+        gc.collect()
+        self.assertIsNotNone(kept())  # before a frame would be looked for in it
+        self.assertTrue(session.play(made))
+        made.remove_map(session.MAP_ID)
+        self.assertIsNone(kept())
+
+    def test_a_map_that_is_refused_leaves_the_one_before(self):
+        made, room = session.localizer(), sphc.Map.open(session.MAP)
+        made.set_map(session.MAP_ID, room)
+        closed, kept = sphc.Map.open(session.MAP), weakref.ref(room.owned())
+        refused = weakref.ref(closed.owned())
+        closed.owned().end()
+        self.assertRaises(sphc.Error, made.set_map, session.MAP_ID, closed)
+        del room, closed
+        gc.collect()
+        self.assertIsNone(refused())
+        self.assertIsNotNone(kept())
+        self.assertTrue(session.play(made))
+
     def test_orders_of_the_end(self):
         for order in ([0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]):
             room = sphc.Map.open(session.MAP)
