@@ -46,7 +46,8 @@ class Aligner:
         given = {"depth_min_m": depth_min_m, "depth_max_m": depth_max_m, "depth_sigma_m": depth_sigma_m,
                  "depth_sigma_per_m2": depth_sigma_per_m2}
         configure(config, given)
-        config.rig, config.depth_format, config.aligned_unit_m = rig.raw(), depth_format, aligned_unit_m
+        config.rig, config.aligned_unit_m = of_type(rig, Rig, "rig").raw(), aligned_unit_m
+        config.depth_format = of_type(depth_format, Format, "depth_format")
         need = _interface.sphc_memory()
         check(interface().sphc_aligner_memory(config, need, message), message)
         memory = aligned(need.state_bytes, need.alignment)

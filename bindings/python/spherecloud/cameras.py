@@ -40,8 +40,8 @@ class Camera:
         return Camera(CameraModel.PINHOLE, width, height, (fx, fy, cx, cy))
 
     def raw(self) -> _interface.sphc_camera:
-        return _interface.sphc_camera(self.model, whole(self.width, "width"), whole(self.height, "height"), len(self.params),
-                                      self.params)
+        return _interface.sphc_camera(whole(self.model, "model", signed=True), whole(self.width, "width"),
+                                      whole(self.height, "height"), len(self.params), self.params)
 
     def check(self) -> None:
         """Error(E_ARGUMENT) if the camera cannot be used; the message names field, cause and cure."""

@@ -66,8 +66,9 @@ class RigCamera:
     row_time_ns: int = 0  # of a rolling shutter
 
     def raw(self) -> _interface.sphc_localizer_camera:
-        return _interface.sphc_localizer_camera(ctypes.sizeof(_interface.sphc_localizer_camera), 0, self.camera.raw(),
-                                                self.color_from_camera.raw(), nanoseconds(self.row_time_ns, "row_time_ns"))
+        return _interface.sphc_localizer_camera(
+            ctypes.sizeof(_interface.sphc_localizer_camera), 0, of_type(self.camera, Camera, "camera").raw(),
+            of_type(self.color_from_camera, Rigid, "color_from_camera").raw(), nanoseconds(self.row_time_ns, "row_time_ns"))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +100,9 @@ class RigDepthCamera:
         raw = _interface.sphc_localizer_depth_camera()
         status = interface().sphc_localizer_depth_camera_init(raw, ctypes.sizeof(raw))
         check(status, "sphc_localizer_depth_camera_init")
-        raw.camera, raw.color_from_depth = self.camera.raw(), self.color_from_depth.raw()
+        raw.camera = of_type(self.camera, Camera, "camera").raw()
+        raw.color_from_depth = of_type(self.color_from_depth, Rigid, "color_from_depth").raw()
+        of_type(self.format, Format, "format")
         configure(raw, {field.name: getattr(self, field.name) for field in dataclasses.fields(self)[2:]})
         return raw
 

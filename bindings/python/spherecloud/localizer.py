@@ -129,7 +129,8 @@ class Localizer:
                  "depth_min_m": depth_min_m, "depth_max_m": depth_max_m, "depth_sigma_m": depth_sigma_m,
                  "depth_sigma_per_m2": depth_sigma_per_m2, "pixel_sigma_px": pixel_sigma_px, "map_sigma_m": map_sigma_m,
                  "depth_mid_m": depth_mid_m, "depth_offset_sigma_m": depth_offset_sigma_m,
-                 "depth_slope_sigma": depth_slope_sigma, "depth_format": depth_format, "amplitude_min": amplitude_min,
+                 "depth_slope_sigma": depth_slope_sigma, "amplitude_min": amplitude_min,
+                 "depth_format": of_type(depth_format, Format, "depth_format"),
                  "color_band": color_band, "color_row_time_ns": color_row_time_ns, "log_level": log_level}
         self._c, self._callbacks = interface(), _Callbacks(log, clock)
         self._process, self._made_result = self._c.sphc_localizer_process, _interface.sphc_localizer_result.from_buffer_copy

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
-from ._calls import check
+from ._calls import check, of_type, whole
 from ._library import interface
 from .enums import Convention
 
@@ -114,8 +114,12 @@ _Seven = ctypes.c_double * 7
 _Three = ctypes.c_double * 3
 
 
+def _number(convention: Convention) -> int:
+    return whole(convention, "convention", signed=True)
+
+
 def _raw(world_from_map: Rigid | None) -> _interface.sphc_rigid | None:
-    return world_from_map.raw() if world_from_map is not None else None
+    return of_type(world_from_map, Rigid, "world_from_map").raw() if world_from_map is not None else None
 
 
 def make_world(convention: Convention, up_map: typing.Iterable[float]) -> Rigid:
@@ -125,7 +129,7 @@ def make_world(convention: Convention, up_map: typing.Iterable[float]) -> Rigid:
     """
     made, message = _interface.sphc_rigid(), _interface.sphc_message()
     up = _Three(*numbers(up_map, 3, "up_map"))
-    check(interface().sphc_convention_make_world(convention, up, made, message), message)
+    check(interface().sphc_convention_make_world(_number(convention), up, made, message), message)
     return Rigid.of(made)
 
 
@@ -135,8 +139,8 @@ def write_camera(convention: Convention, camera_from_map: Rigid, world_from_map:
     None is the map's own frame, for COLMAP and TUM alone.  Error(E_ARGUMENT): not finite, or beyond a limit.
     """
     pose, message = _Seven(), _interface.sphc_message()
-    check(interface().sphc_convention_write_camera(convention, _raw(world_from_map), camera_from_map.raw(), pose, message),
-          message)
+    camera = of_type(camera_from_map, Rigid, "camera_from_map").raw()
+    check(interface().sphc_convention_write_camera(_number(convention), _raw(world_from_map), camera, pose, message), message)
     return np.array(pose)
 
 
@@ -144,19 +148,21 @@ def read_camera(convention: Convention, pose: typing.Iterable[float], world_from
     """camera_from_map of seven numbers in the convention's order.  Errors as of write_camera."""
     made, message = _interface.sphc_rigid(), _interface.sphc_message()
     seven = _Seven(*numbers(pose, 7, "pose"))
-    check(interface().sphc_convention_read_camera(convention, _raw(world_from_map), seven, made, message), message)
+    check(interface().sphc_convention_read_camera(_number(convention), _raw(world_from_map), seven, made, message), message)
     return Rigid.of(made)
 
 
 def write_map(convention: Convention, world_from_map: Rigid) -> Floats:
     """The map's pose in the other system's world, as seven numbers in its order.  Errors as of write_camera."""
     pose, message = _Seven(), _interface.sphc_message()
-    check(interface().sphc_convention_write_map(convention, world_from_map.raw(), pose, message), message)
+    world = of_type(world_from_map, Rigid, "world_from_map").raw()
+    check(interface().sphc_convention_write_map(_number(convention), world, pose, message), message)
     return np.array(pose)
 
 
 def read_map(convention: Convention, pose: typing.Iterable[float]) -> Rigid:
     """world_from_map of seven numbers in the convention's order.  Errors as of write_camera."""
     made, message = _interface.sphc_rigid(), _interface.sphc_message()
-    check(interface().sphc_convention_read_map(convention, _Seven(*numbers(pose, 7, "pose")), made, message), message)
+    seven = _Seven(*numbers(pose, 7, "pose"))
+    check(interface().sphc_convention_read_map(_number(convention), seven, made, message), message)
     return Rigid.of(made)

@@ -7,6 +7,7 @@ import typing
 from . import _interface
 from ._answer import DepthBias
 from ._answers import HypothesisFields, ParameterRangeFields, PredictionFields, ResultFields
+from ._calls import whole
 from ._library import interface
 from .enums import Outcome, Parameter, Status
 from .errors import Error
@@ -83,7 +84,8 @@ def parameter_range(parameter: Parameter) -> ParameterRange:
     """Error(E_UNSUPPORTED): the library does not know the parameter."""
     raw = _interface.sphc_localizer_parameter_range()
     raw.struct_size = ctypes.sizeof(raw)
-    status = Status(interface().sphc_localizer_get_parameter_range(parameter, raw))
+    number = whole(parameter, "parameter", signed=True)
+    status = Status(interface().sphc_localizer_get_parameter_range(number, raw))
     if status < 0:
-        raise Error(status, f"the library has no parameter {int(parameter)}")
+        raise Error(status, f"the library has no parameter {number}")
     return ParameterRange(raw)

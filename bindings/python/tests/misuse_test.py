@@ -107,7 +107,13 @@ class Misuse(unittest.TestCase):
                  lambda: self.localizer.remove_map(-1), lambda: self.localizer.set_map_transform(past, None),
                  lambda: self.localizer.predict(2**63), lambda: self.localizer.get_parameter(past),
                  lambda: sphc.Localizer(session.RIG, max_keypoints=past + 800),
-                 lambda: sphc.Camera.pinhole(past + 640, 480, 500, 500, 320, 240).check()]
+                 lambda: sphc.Camera.pinhole(past + 640, 480, 500, 500, 320, 240).check(),
+                 lambda: sphc.Camera(past + sphc.CameraModel.PINHOLE, 640, 480, (500, 500, 320, 240)).check(),
+                 lambda: sphc.parameter_range(2**40 + sphc.Parameter.MAX_RATIO)]
+        tum = past + sphc.Convention.TUM
+        calls += [lambda: sphc.make_world(tum, (0, 0, 1)), lambda: sphc.write_camera(tum, sphc.Rigid()),
+                  lambda: sphc.read_camera(tum, (0, 0, 0, 0, 0, 0, 1)), lambda: sphc.write_map(tum, sphc.Rigid()),
+                  lambda: sphc.read_map(tum, (0, 0, 0, 0, 0, 0, 1))]
         for name, value in (("sequence", -1), ("deadline_us", past + 1), ("deadline_us", -5), ("color_time_ns", 2**64 + 7),
                             ("depth_time_ns", -2**63 - 1)):
             wrong = dataclasses.replace(frame, **{name: value})
@@ -116,7 +122,9 @@ class Misuse(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "must be|beyond"):
                 call()
         for call in (lambda: self.localizer.predict(1e9), lambda: self.localizer.set_map("hall", self.map),
-                     lambda: self.map.direction(1.0), lambda: self.localizer.set_parameter("PROBES", 3)):
+                     lambda: self.map.direction(1.0), lambda: self.localizer.set_parameter("PROBES", 3),
+                     lambda: sphc.parameter_range(1.5), lambda: sphc.write_map("TUM", sphc.Rigid()),
+                     lambda: sphc.Camera("PINHOLE", 640, 480, (500, 500, 320, 240)).check()):
             with self.assertRaisesRegex(TypeError, "whole number"):
                 call()
         self.goes_on()
@@ -136,6 +144,16 @@ class Misuse(unittest.TestCase):
                      lambda: sphc.Localizer(session.RIG, log=3), lambda: sphc.Localizer(session.RIG, clock=3),
                      lambda: sphc.Localizer(session.RIG, cameras=[session.RIG]),
                      lambda: sphc.Localizer(session.RIG, depth_cameras=[session.RIG]),
+                     lambda: sphc.Aligner(None), lambda: sphc.Aligner(session.RIG, depth_format=2**32 + sphc.Format.DEPTH16),
+                     lambda: sphc.Localizer(session.RIG, depth_format=int(sphc.Format.DEPTH16)),
+                     lambda: sphc.Localizer(session.RIG, depth_format=None),
+                     lambda: sphc.RigCamera(None, sphc.Rigid()).raw(), lambda: sphc.RigCamera(session.COLOR, np.eye(4)).raw(),
+                     lambda: sphc.RigDepthCamera(None, sphc.Rigid()).raw(),
+                     lambda: sphc.RigDepthCamera(session.DEPTH, np.eye(4)).raw(),
+                     lambda: sphc.RigDepthCamera(session.DEPTH, sphc.Rigid(), None).raw(),
+                     lambda: sphc.write_camera(sphc.Convention.TUM, np.eye(4)),
+                     lambda: sphc.write_camera(sphc.Convention.TUM, sphc.Rigid(), np.eye(4)),
+                     lambda: sphc.write_map(sphc.Convention.TUM, np.eye(4)),
                      lambda: sphc.Localizer(session.RIG, cameras=1), lambda: sphc.Localizer(session.RIG, depth_cameras=1),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, deadline_us="soon"))):
             with self.assertRaisesRegex(TypeError, "not "):
