@@ -22,10 +22,10 @@ internal sealed class WorkerPool {
   }
 
   internal void Stop() {
-    lock (gate) {
-      stopped = true;
-      Monitor.PulseAll(gate);
-    }
+    Enter();
+    stopped = true;
+    Monitor.PulseAll(gate);
+    Monitor.Exit(gate);
   }
 
   /// <summary>Runs all pieces, with the calling thread's help. Where the threads are at the work of another call, the
@@ -37,21 +37,43 @@ internal sealed class WorkerPool {
       return;
     }
     for (;;) {
-      uint index;
-      lock (gate) {
-        if (next == count) break;
-        index = Take();
-      }
+      Enter();
+      if (next == count) break;
+      uint index = Take();
+      Monitor.Exit(gate);
       Do(called, dataOfPieces, index);
     }
-    lock (gate) {
-      while (running > 0) Monitor.Wait(gate);
-      inUse = false;
-    }
+    WaitForOthers();
+    inUse = false;
+    Monitor.Exit(gate);
+  }
+
+  /// <summary>As the beginning of `lock (gate)`, but does not throw where the thread is interrupted, as native code called
+  /// it; the next wait of the program's throws.</summary>
+  private void Enter() {
+    bool entered = false, interrupted = false;
+    while (!entered) try {
+        Monitor.Enter(gate, ref entered);
+      } catch (ThreadInterruptedException) {
+        interrupted = true;
+      }
+    if (interrupted) Thread.CurrentThread.Interrupt();
+  }
+
+  /// <summary>Inside the gate. Does not throw either.</summary>
+  private void WaitForOthers() {
+    bool interrupted = false;
+    while (running > 0) try {
+        Monitor.Wait(gate);
+      } catch (ThreadInterruptedException) {
+        interrupted = true;
+      }
+    if (interrupted) Thread.CurrentThread.Interrupt();
   }
 
   private bool Begin(uint pieces, IntPtr function, IntPtr dataOfPieces, out Piece called) {
-    lock (gate) {
+    Enter();
+    try {
       if (!known.TryGetValue(function, out called)) {
         called = (Piece)Marshal.GetDelegateForFunctionPointer(function, typeof(Piece));
         known[function] = called;
@@ -64,6 +86,8 @@ internal sealed class WorkerPool {
       count = pieces;
       Monitor.PulseAll(gate);
       return true;
+    } finally {
+      Monitor.Exit(gate);
     }
   }
 
@@ -91,8 +115,9 @@ internal sealed class WorkerPool {
 
   private void Do(Piece called, IntPtr dataOfPieces, uint index) {
     called(dataOfPieces, index);
-    lock (gate)
-      if (--running == 0 && next == count) Monitor.PulseAll(gate);
+    Enter();
+    if (--running == 0 && next == count) Monitor.PulseAll(gate);
+    Monitor.Exit(gate);
   }
 }
 }

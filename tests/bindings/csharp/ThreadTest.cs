@@ -39,6 +39,30 @@ internal static class ThreadTest {
     }
   }
 
+  /// <summary>Native code cannot be thrown through: the interrupt is there when the call is over, and the threads work
+  /// on.</summary>
+  public static void AnInterruptWaitsForTheEndOfTheCall() {
+    LocalizerConfig config = Session.Config();
+    config.ParallelTasks = 4;
+    LocalizerFrame frame = Session.Frame(0);
+    using (Localizer localizer = Session.Localizer(config), alone = Session.Localizer()) {
+      LocalizerResult found = default(LocalizerResult), wanted = default(LocalizerResult);
+      Together(1, i => {
+        for (int call = 0; call < 20; ++call) {
+          localizer.Reset();
+          Thread.CurrentThread.Interrupt();
+          localizer.Process(frame, out found);
+          Expect.Throws<ThreadInterruptedException>(() => Thread.Sleep(1), "");
+        }
+      });
+      for (int call = 0; call < 20; ++call) {
+        alone.Reset();
+        alone.Process(frame, out wanted);
+      }
+      Expect.Numbers(Session.Numbers(wanted.CameraFromMap), Session.Numbers(found.CameraFromMap), "pose");
+    }
+  }
+
   public static void ASecondCallAtTheSameTimeIsRefused() {
     using (var clock = new HeldClock())
     using (Localizer localizer = Session.Localizer(clock.Config())) {
