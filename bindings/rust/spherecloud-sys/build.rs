@@ -57,6 +57,10 @@ fn link_pkg_config(folder: Option<&Path>, is_static: bool) -> Result<(), String>
     if let Some(folder) = folder {
         command.env("PKG_CONFIG_PATH", folder);
     }
+    if is_static {
+        // rustc looks for a static library itself, and knows no folder of the system.
+        command.env("PKG_CONFIG_ALLOW_SYSTEM_LIBS", "1");
+    }
     let told = command.output().map_err(|why| format!("SPHERECLOUD_LIB_DIR is not set; {:?}: {}.", program, why))?;
     if !told.status.success() {
         let why = String::from_utf8_lossy(&told.stderr);
