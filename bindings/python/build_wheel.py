@@ -32,6 +32,8 @@ MANYLINUX = [((2, 17), {"GLIBCXX": (3, 4, 19), "CXXABI": (1, 3, 7), "GCC": (4, 7
              ((2, 34), {"GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0)}),
              ((2, 35), {"GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0)}),
              ((2, 39), {"GLIBCXX": (3, 4, 33), "CXXABI": (1, 3, 15), "GCC": (14, 0, 0)})]
+# What a tag calls the machine of an ELF file, by its header: 1 for 32 bits or 2 for 64, and the number of the processor.
+MACHINES = {(1, 3): "i686", (1, 40): "armv7l", (2, 62): "x86_64", (2, 183): "aarch64", (2, 243): "riscv64"}
 
 
 def told(key):
@@ -92,6 +94,15 @@ def platform_of(files):
     return "linux"
 
 
+def machine_of(path):
+    """The machine that a file is for, which need not be the kernel's: a kernel of 64 bits runs systems of 32."""
+    content = pathlib.Path(path).read_bytes()[:20]
+    header = (content[4], int.from_bytes(content[18:], "little")) if content[:4] == b"\x7fELF" and len(content) == 20 else None
+    if header not in MACHINES:
+        sys.exit(f"{path} is for none of {', '.join(MACHINES.values())}; build it for one of them, or a wheel without --library")
+    return MACHINES[header]
+
+
 def tag_of(carried, command):
     """py3-none-PLATFORM_MACHINE; a command that needs more than is carried may not run on another machine."""
     if not carried and not command:
@@ -100,7 +111,7 @@ def tag_of(carried, command):
     is_alone = command and any(name not in names and not (carried and name.startswith("libspherecloud."))
                                for name, _ in needed_by(command))
     platform = "linux" if is_alone else platform_of([path for _, path in carried] + [command] * bool(command))
-    return f"py3-none-{platform}_{os.uname().machine}"
+    return f"py3-none-{platform}_{machine_of(carried[0][1] if carried else command)}"
 
 
 def metadata():

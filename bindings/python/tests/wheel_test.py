@@ -26,6 +26,10 @@ def build(out, **variables):
     return pathlib.Path(run(sys.executable, "-B", BUILD, "--out", out, "--library", library, **variables).strip())
 
 
+def elf(bits, processor):
+    return b"\x7fELF" + bytes([bits]) + bytes(13) + processor.to_bytes(2, "little")
+
+
 def builder():
     spec = importlib.util.spec_from_file_location("build_wheel", BUILD)
     module = importlib.util.module_from_spec(spec)
@@ -77,7 +81,7 @@ class Wheel(unittest.TestCase):
 
     def test_a_command_that_needs_this_machine_is_for_this_machine(self):
         command = self.folder / "spherecloud"
-        command.write_bytes(b"")
+        command.write_bytes(elf(2, 62))
         module = builder()
         module.needed_by = lambda path: [("libspherecloud.so.1", "/lib/libspherecloud.so.1"), ("libavcodec.so.59", "/lib/a")]
         self.assertRegex(module.tag_of([], command), "^py3-none-linux_")
@@ -86,6 +90,17 @@ class Wheel(unittest.TestCase):
         self.assertRegex(module.tag_of([("libspherecloud.so", command)], command), "^py3-none-manylinux_2_17_")
         self.assertIn("LICENSE.lzfse", module.licenses([], command))
         self.assertNotIn("LICENSE.lzfse", module.licenses([], None))
+
+    def test_the_tag_names_the_machine_of_the_library(self):
+        library, module = self.folder / "libspherecloud.so", builder()
+        for header, machine in ((elf(1, 3), "i686"), (elf(1, 40), "armv7l"), (elf(2, 62), "x86_64"), (elf(2, 183), "aarch64"),
+                                (elf(2, 243), "riscv64")):
+            library.write_bytes(header)
+            self.assertEqual(module.tag_of([("libspherecloud.so", library)], None), f"py3-none-manylinux_2_17_{machine}")
+        for other in elf(1, 62), elf(2, 8), b"", b"\x7fELF":
+            library.write_bytes(other)
+            with self.assertRaisesRegex(SystemExit, f"{library} is for none of i686, .*; build it"):
+                module.tag_of([("libspherecloud.so", library)], None)
 
     def test_without_a_library_it_is_for_any_machine(self):
         wheel = pathlib.Path(run(sys.executable, "-B", BUILD, "--out", self.folder).strip())
