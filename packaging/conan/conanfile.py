@@ -26,7 +26,9 @@ class SphereCloud(ConanFile):
 
     def set_version(self):
         told = load(self, os.path.join(self.recipe_folder, ROOT, "CMakeLists.txt"))
-        self.version = self.version or re.search(r"VERSION ([\d.]+) LANGUAGES", told).group(1)
+        release = re.search(r"VERSION ([\d.]+) LANGUAGES", told).group(1)
+        candidate = re.search(r"set\(SPHC_CANDIDATE (\w+)\)", told)
+        self.version = self.version or release + (f"-{candidate.group(1)}" if candidate else "")
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, ROOT)

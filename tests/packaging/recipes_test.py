@@ -1,11 +1,17 @@
 #!/usr/bin/env python3
 """The recipes of packaging/ configure this tree as they say, and name its version and its files."""
+import importlib.util
+import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
+import types
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGING = ROOT / "packaging"
@@ -18,6 +24,23 @@ mkdir -p "$2/tests/fuzz/seeds/map" && touch "$2/tests/fuzz/fuzz_map" "$2/tests/f
 """
 
 
+# What the recipe of Conan takes from it.
+OF_CONAN = {"conan": ("ConanFile",), "conan.tools": (), "conan.tools.build": ("check_min_cppstd",),
+            "conan.tools.cmake": ("CMake", "CMakeDeps", "CMakeToolchain", "cmake_layout"), "conan.tools.files": ("copy", "load")}
+
+
+def conan_recipe(cmake_lists):
+    """An instance of the recipe, without Conan, which reads that text."""
+    stand_ins = {name: types.SimpleNamespace(**dict.fromkeys(has)) for name, has in OF_CONAN.items()}
+    stand_ins["conan"].ConanFile = type("ConanFile", (), {"version": None, "recipe_folder": str(PACKAGING / "conan")})
+    stand_ins["conan.tools.files"].load = lambda recipe, path: cmake_lists
+    spec = importlib.util.spec_from_file_location("conanfile", PACKAGING / "conan" / "conanfile.py")
+    module = importlib.util.module_from_spec(spec)
+    with unittest.mock.patch.dict(sys.modules, stand_ins):
+        spec.loader.exec_module(module)
+    return module.SphereCloud()
+
+
 def program(path, text):
     path.write_text(text, encoding="utf-8")
     path.chmod(0o755)
@@ -28,6 +51,21 @@ class Recipes(unittest.TestCase):
         place = tempfile.TemporaryDirectory(prefix="a recipe ")
         self.addCleanup(place.cleanup)
         self.folder = pathlib.Path(place.name)
+
+    def test_a_candidate_is_not_named_as_the_release(self):
+        told = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        release = re.search(r"VERSION ([\d.]+) LANGUAGES", told).group(1)
+        candidate = re.search(r"set\(SPHC_CANDIDATE ?(\w*)\)", told).group(1)
+        recipe, = (PACKAGING / "yocto").rglob("*.bb")
+        self.assertEqual(recipe.stem, f"spherecloud_{release}")
+        self.assertEqual(re.findall(r'^PV = "(.*)"$', recipe.read_text(encoding="utf-8"), re.MULTILINE),
+                         [f"{release}~{candidate}"] if candidate else [])
+        port = json.loads((PACKAGING / "vcpkg/spherecloud/vcpkg.json").read_text(encoding="utf-8"))
+        self.assertEqual(port["version-semver"], f"{release}-{candidate}" if candidate else release)
+        for line, version in (("set(SPHC_CANDIDATE rc3)", "2.0.1-rc3"), ("set(SPHC_CANDIDATE)", "2.0.1"), ('set(SPHC_CANDIDATE "")', "2.0.1")):
+            of_conan = conan_recipe(f"project(spherecloud VERSION 2.0.1 LANGUAGES C CXX)\n{line} # of the header\n")
+            of_conan.set_version()
+            self.assertEqual(of_conan.version, version)
 
     def test_oss_fuzz_configures_without_google_test(self):
         for name in ("src", "work", "out", "bin"):

@@ -1,6 +1,8 @@
 SUMMARY = "Relocalization of headsets from colour and time-of-flight images"
 DESCRIPTION = "Says where a device is in a prebuilt map that holds neither geometry nor looks of the place"
 SECTION = "libs"
+# A candidate, which sorts before the release; a release has the version of the file's name.
+PV = "1.0.0~rc1"
 LICENSE = "Apache-2.0"
 LIC_FILES_CHKSUM = "file://LICENSE;md5=3b83ef96387f14655fc854ddc3c6bd57"
 
