@@ -158,7 +158,7 @@ def made_into(folder, options):
 
 
 def packages(options):
-    """The Debian packages hold each installed file once, depend on each other, and are found when unpacked."""
+    """The Debian packages hold each installed file once, depend on each other, and are found when unpacked and by dpkg-shlibdeps."""
     folder = options.prefix.parent / "packages"
     shutil.rmtree(folder, ignore_errors=True)
     once, again = (made_into(folder / name, options) for name in ("once", "again"))
@@ -177,6 +177,10 @@ def packages(options):
         subprocess.run(["dpkg-deb", "-x", file, folder / "root"], check=True)
         for name in names_in(unpacked / "usr"):
             owners.setdefault(name, []).append(package)
+    file, = (folder / "once").glob(f"{library}_*.deb")
+    told = subprocess.run(["dpkg-deb", "-I", file, "shlibs"], text=True, capture_output=True, check=False).stdout
+    if not told.startswith(f"libspherecloud {options.version.split('.')[0]} {library} (>= {options.version}"):
+        faults.append(f"{library} does not say on what packages of programs depend that are linked with it: {told or 'no shlibs'}")
     faults += [f"{name} is in {who}" for name, who in owners.items() if len(who) > 1]
     installed = {name for name, who in owners.items() if who != [PYTHON_PACKAGE]}
     faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ installed]
