@@ -15,6 +15,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # by dpkg-shlibdeps, of dpkg-dev
 get_property(CPACK_COMPONENTS_ALL GLOBAL PROPERTY SPHC_INSTALLED_COMPONENTS)
 list(REMOVE_DUPLICATES CPACK_COMPONENTS_ALL)
 list(APPEND CPACK_COMPONENTS_ALL development python)
+if(TARGET spherecloud_libcamera)
+  list(APPEND CPACK_COMPONENTS_ALL libcamera)
+endif()
 
 # sphc_package(COMPONENT NAME SECTION DESCRIPTION DEPENDS)
 macro(sphc_package component name section description depends)
@@ -39,9 +42,12 @@ sphc_package(signature libspherecloud-signature-dev libdevel "Refuses maps of sp
 sphc_package(encryption libspherecloud-encryption-dev libdevel "Decrypts maps of spherecloud that lie encrypted" "libspherecloud-dev ${same}")
 sphc_package(drivers libspherecloud-drivers-dev libdevel "Capture drivers of spherecloud" "libspherecloud-dev ${same}")
 sphc_package(host spherecloud-tools utils "Recordings to maps, maps to poses: the command spherecloud" "${library} ${same}")
+sphc_package(libcamera spherecloud-libcamera libs "Cameras of libcamera, for the command spherecloud and for drivers" "")
 sphc_package(python python3-spherecloud python "Python package of spherecloud" "${library} ${same}, python3 (>= 3.9), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, spherecloud-tools")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/install/prerm)
-set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "libopencv-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libavcodec-dev, libopenexr-dev, libzip-dev, libturbojpeg0-dev, libopenni2-dev")
+# Of another release of libcamera the plug-in cannot be installed, and all else works without it.
+set(CPACK_DEBIAN_HOST_PACKAGE_RECOMMENDS "spherecloud-libcamera ${same}")
+set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "spherecloud-libcamera ${same}, libopencv-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libavcodec-dev, libopenexr-dev, libzip-dev, libturbojpeg0-dev, libopenni2-dev")
 include(CPack)

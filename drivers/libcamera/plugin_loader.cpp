@@ -11,9 +11,10 @@ const sphc_libcamera_plugin *loadPlugin(const char *path, sphc_message *message)
   void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!library) {
     const char *why = dlerror();
-    pixels::explain(message, SPHC_E_UNSUPPORTED,
-                    "%.150s; build the target spherecloud_libcamera on this machine with libcamera-dev installed",
-                    why ? why : name);
+    pixels::explain(
+        message, SPHC_E_UNSUPPORTED,
+        "%.150s; install it (Debian: spherecloud-libcamera), or build spherecloud_libcamera with libcamera-dev",
+        why ? why : name);
     return nullptr;
   }
   const auto entry = reinterpret_cast<sphc_libcamera_plugin_fn>(dlsym(library, SPHC_LIBCAMERA_PLUGIN_ENTRY));

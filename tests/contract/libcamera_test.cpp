@@ -88,6 +88,7 @@ TEST_F(Libcamera, SaysHowToGetAPluginThatIsNotThere) {
   config_.plugin_path = "/nonexistent/plugin.so";
   expectRefused(SPHC_E_UNSUPPORTED, "libcamera-dev");
   EXPECT_THAT(message_.text, HasSubstr("/nonexistent/plugin.so"));
+  EXPECT_THAT(message_.text, HasSubstr("install it"));
 }
 
 TEST_F(Libcamera, RefusesAPluginOfAnotherVersion) {

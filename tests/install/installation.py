@@ -21,6 +21,7 @@ LICENSES_OF_OTHERS = tuple(f"share/doc/spherecloud/{component}/LICENSE.lzfse" fo
 ALL = RUNTIME + ("bin/spherecloud", *LICENSES_OF_OTHERS, "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
                  "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
 
+PLUGIN = "{lib}/libspherecloud_libcamera.so"  # where libcamera-dev was there
 PYTHON_PACKAGE = "python3-spherecloud"  # no other way of installing has its files
 
 
@@ -29,8 +30,13 @@ def missing(needed, prefix, libdir):
 
 
 def complete(options):
-    """Nothing is missing, and no file names the folders of source and build; programs that keep names for a debugger may."""
+    """Nothing is missing, and no file names the folders of source and build; programs that keep names for a debugger may.
+    The command finds the plug-in for libcamera beside it."""
     faults = missing(ALL, options.prefix, options.libdir)
+    if (options.prefix / PLUGIN.format(lib=options.libdir)).exists():
+        done = subprocess.run([options.prefix / "bin/spherecloud", "devices"], text=True, capture_output=True, check=False)
+        if "libspherecloud_libcamera" in done.stdout + done.stderr:
+            faults.append(f"the command does not find its plug-in for libcamera: {done.stdout}{done.stderr}")
     for path in options.prefix.rglob("*"):
         content = path.read_bytes() if path.is_file() else b""
         is_code = content.startswith((b"\x7fELF", b"!<arch>"))
@@ -166,6 +172,8 @@ def packages(options):
     depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "libspherecloud-signature-dev": "libspherecloud-dev",
                "libspherecloud-encryption-dev": "libspherecloud-dev", "spherecloud-tools": library,
                PYTHON_PACKAGE: library}
+    if (options.prefix / PLUGIN.format(lib=options.libdir)).exists():
+        depends["spherecloud-libcamera"] = "libcamera"
     faults, owners = [f"{name} has other bytes when it is made again" for name in once if once[name] != again[name]], {}
     for package, other in depends.items():
         file, = (folder / "once").glob(f"{package}_{options.version}*_*.deb")

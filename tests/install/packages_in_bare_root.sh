@@ -42,6 +42,8 @@ cpack --config "$1/CPackConfig.cmake" -B "$place/packages/debs" >"$place/cpack.l
 step "the command" "apt-get update -qq; apt-get install -y --no-install-recommends /debs/libspherecloud[0-9]*.deb /debs/spherecloud-tools*.deb; spherecloud --version"
 step "a map and its poses" "cd /tmp; spherecloud simulate --frames 12 --rate 3 --out walk; spherecloud build --recording walk --map room.sphc --last 8
   spherecloud localize --recording walk --first 9 --map room.sphc --owner-note room.sphc.owner.json; test -s room.sphc; echo localized"
+step "libcamera" "apt-get install -y --no-install-recommends /debs/spherecloud-libcamera*.deb
+  ! spherecloud devices 2>&1 | grep libspherecloud_libcamera && echo the command finds the plug-in"
 step "Python" "apt-get install -y --no-install-recommends /debs/python3-spherecloud*.deb
   python3 -c 'import spherecloud; print(spherecloud.version())'; python3 -m spherecloud info /tmp/room.sphc; python3 -m spherecloud --version"
 step "headers and static library" "apt-get install -y --no-install-recommends gcc g++ make cmake ninja-build pkg-config libc6-dev /debs/libspherecloud-dev*.deb; pkg-config --modversion spherecloud"
