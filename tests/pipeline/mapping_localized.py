@@ -6,21 +6,20 @@
 A recording is mapped once by `map`, which does not read its poses ("found"), and once by `build`, which trusts them ("given").
 Both models are published by each key.  Frames that are in neither map are localized one by one, and both are compared with
 the same poses after a rigid alignment (`localize --align`), since a map without poses has a world of its own.  These are the
-recording's ("given"), and of a headset's walks also those that `map` finds for all of its frames ("found"): where each kind of
-map is the better one beside its own kind of poses, the two trajectories differ, and the maps do not.
+recording's ("given"), and of real walks also those that `map` finds for all of its frames ("found"): where each kind of map is the
+better one beside its own kind of poses, the two trajectories differ, and the maps do not.
 """
 import argparse
 import concurrent.futures
 import os
 import pathlib
-import shutil
 import statistics
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, Ledger, Recording, every_other_block, frames, require, run
+from recordings import HERE, Ledger, Recording, frames, require, run
 
 RESULTS = HERE / "mapping_localized.csv"
 ROOMS = range(6001, 6013)  # those of mapping.py
@@ -28,7 +27,6 @@ LAP = 100  # frames: the first lap is mapped, the second, from other places, is 
 # Frames of the map and of the queries.
 REAL = {"redkitchen": ((0, 597, 3), (620, 799, 1)), "hololens": ((0, 198, 2), (1, 199, 2)), "hololens2": ((0, 998, 2), (1, 999, 2))}
 POSES = ["given", "found"]
-JUDGED_TWICE = ["hololens", "hololens2"]  # in the layout of TUM
 ETA, FAKES = 0.33, "patchwork"
 COLUMNS = ["recording", "truth", "poses", "keys", "frames", "localized", "within_5cm_5deg", "worst_key", "median_cm", "p90_cm", "median_deg", "p90_deg"]
 
@@ -71,21 +69,16 @@ def measure(name, keys, tool, source, queries, folder):
             yield row_of(name, truth, poses, [localize(model, key, tool, frames_with_it) for key in keys])
 
 
-def with_found_poses(recording, tool, folder):
-    """A copy of the recording, with the poses that are found for it."""
-    every_other_block(recording.folder, folder / "found", sys.maxsize, 0)  # one block is all of it
-    run([tool, "map", *recording.place("map"), "--model", folder / "all.model", "--trajectory", folder / "all.tum", "--json"])
-    shutil.copyfile(folder / "all.tum", folder / "found" / "groundtruth.txt")
-    return ["--recording", folder / "found", *recording.place("map")[2:]]
+def with_found_poses(place, tool, folder):
+    """The recording, with the poses that are found for all of its frames in place of its own."""
+    run([tool, "map", *place, "--model", folder / "all.model", "--trajectory", folder / "all.tum", "--json"])
+    return [*place, "--poses-from", folder / "all.tum"]
 
 
 def measure_real(name, keys, tool, folder):
-    recording = Recording(name, tool, folder)
     of_map, of_queries = REAL[name]
-    place = recording.place("map")
-    places = {"given": place}
-    if name in JUDGED_TWICE:
-        places["found"] = with_found_poses(recording, tool, folder)
+    place = Recording(name, tool, folder).place("map")
+    places = {"given": place, "found": with_found_poses(place, tool, folder)}
     yield from measure(name, keys, tool, place + frames(of_map), {truth: at + frames(of_queries) for truth, at in places.items()}, folder)
 
 
