@@ -1,6 +1,7 @@
 #include "runtime/localizer/verification.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/localizer/tuning.h"
@@ -209,9 +210,9 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->doubtForRival();
 }
 
-// Keypoints that do not speak for the pose may speak for another one as clearly: where things stand in the room
-// twice, or where some of what is seen goes with the camera, as its holder's feet do.  A pose of many inliers may
-// lack this for its deadline.
+// Keypoints that do not speak for the pose, of earlier frames too, may speak for another one as clearly: where
+// things stand in the room twice, or where some of what is seen goes with the camera, as its holder's feet do.  A
+// pose of many inliers may lack this for its deadline.
 void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint32_t inliers = found->estimate.inliers;
   if (!found->isLocalized() || found->guided || inliers >= kInliersBeyondOthers) return;
@@ -223,7 +224,7 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   other.query.deadline = task.query.deadline.afterShare(kAgainShare);
   other.query.most_samples = way.most_samples;
   other.rays = {};
-  rival->begin(found->map);
+  rival->begin(found->map, found->frames);
   uint32_t taken = 0;
   for (uint32_t i = 0; i < found->matched.matches().size(); ++i)
     if (estimator_.isInlier(found->matched.ofThisFrame()[i], found->estimate))
@@ -231,6 +232,9 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   const uint32_t keypoints = std::min(answerable(other), way.most_keypoints);
   search_.matchOthers(task.question, keypoints, rival->matched.room().first(taken), other.query.deadline,
                       &rival->matched, &work_);
+  const Span<const Correspondence> all = found->matched.all();
+  for (size_t i = found->matched.matches().size(); i < all.size(); ++i)
+    if (!estimator_.isInlier(all[i], found->estimate)) rival->matched.add(all[i]);
   if (!challengeBySearch(other, found, rival)) return;
   const double share = rival->estimate.gain / found->estimate.gain;
   if (share > way.ambiguous_gain) return found->doubtForRival();
@@ -323,6 +327,9 @@ void Verification::challengeByPeriod(const PoseTask &task, Hypothesis *found, Hy
       if (isCut(task)) return;
       rival->challenge(*found);
       rival->estimate.camera_from_map.translation_m += times * move_m;
+      // Nobody searched for it: what speaks for it is what re-matching shows.
+      rival->evidence.source = MatchSource::kExpected;
+      rival->evidence.log_chance_first = -std::numeric_limits<double>::infinity();
       rematch(near, rival);
       const PoseBounds same = {move_m.norm() / 2, kSamePose.most_turn_rad};
       const double gain = rival->estimate.gain / found->estimate.gain;

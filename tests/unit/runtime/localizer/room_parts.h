@@ -39,7 +39,9 @@ class RoomParts {
   // keypoints are rays.
   void see(uint32_t viewpoint, uint32_t room = 0) { see(*sceneFrame(sceneConfig(), viewpoint, room)); }
   // The upper half, or another share, as one viewpoint sees it, the lower one as another one does.
-  void seeHalves(uint32_t upper, uint32_t lower, double upper_share = 0.5) {
+  // Of `columns` alone, shares of the width; the rest is blank.
+  void seeHalves(uint32_t upper, uint32_t lower, double upper_share = 0.5,
+                 const std::pair<double, double> &columns = {0, 1}) {
     const auto made = sceneFrame(sceneConfig(), upper), other = sceneFrame(sceneConfig(), lower);
     const auto copyLower = [&](const auto &from, auto *to) {
       const auto begin = static_cast<ptrdiff_t>(upper_share * static_cast<double>(from.size()));
@@ -47,6 +49,11 @@ class RoomParts {
     };
     copyLower(other->images.gray, &made->images.gray);
     copyLower(other->images.depth_mm, &made->images.depth_mm);
+    const uint32_t width = made->frame.color.width;
+    for (size_t i = 0; i < made->images.gray.size(); ++i) {
+      const double x = (static_cast<double>(i % width) + 0.5) / width;
+      if (x < columns.first || x > columns.second) made->images.gray[i] = 128;
+    }
     see(*made);
   }
   // A wall 2 m ahead, whose upper `rows` have a piece of what the viewpoint sees over and over, `period_px` wide;

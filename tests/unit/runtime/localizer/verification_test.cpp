@@ -240,6 +240,28 @@ class ThinRoomTest : public VerificationTest {
     parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched, &parts_.work);
     verify(task);
   }
+  // One half of the image after the other, left and right, seen by a camera that stands still.
+  void verifyStrips(uint32_t upper, uint32_t lower) {
+    Tracker tracker;
+    const Odometry still = {{}, 1e-4, 1e-4};
+    for (const double left : {0.0, 0.5}) {
+      tracker.advance(time_ns_ += kStepNs, &still);
+      parts_.fusion.advance(tracker);
+      parts_.seeHalves(upper, lower, 0.5, {left, left + 0.5});
+      const PoseTask task = this->task();
+      found().begin(0);
+      parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched,
+                                    &parts_.work);
+      if (!parts_.fusion.remember(0, found().matched)) continue;
+      found().begin(0, parts_.fusion.frames());
+      parts_.fusion.addTo(*task.question.map, &found().matched);
+      verify(task);
+    }
+    parts_.fusion.clear();
+  }
+
+  static constexpr int64_t kStepNs = 33000000;
+  int64_t time_ns_ = 0;
 };
 
 TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
@@ -251,6 +273,15 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
   EXPECT_EQ(found().outcome, Outcome::kUncertain);
   EXPECT_TRUE(found().is_ambiguous);
   EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
+}
+
+// The same, where each of two frames shows too little by itself.
+TEST_F(ThinRoomTest, SoIsAPoseOfSeveralFramesThatTheirKeypointsContradict) {
+  verifyStrips(0, 0);
+  EXPECT_TRUE(found().isLocalized());
+  verifyStrips(0, 4);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_TRUE(found().is_ambiguous);
 }
 
 TEST_F(ThinRoomTest, BothPosesOfAnAmbiguousFrameAreRanked) {
@@ -465,6 +496,16 @@ TEST_F(SeenTwiceTest, APoseIsAmbiguousWhereWhatDoesNotRepeatSpeaksForOneOffByThe
   EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
   EXPECT_EQ(found().outcome, Outcome::kUncertain);
   EXPECT_TRUE(found().is_ambiguous);
+}
+
+// The matches that another pose was searched among say nothing of it.
+TEST_F(SeenTwiceTest, APoseOffByThePeriodIsRankedByItsOwnEvidence) {
+  verifySeen();
+  ASSERT_GT(ranking_.poses().size(), 1u);
+  for (const RankedPose &pose : ranking_.poses()) {
+    if (areNear(pose.camera_from_map, found().estimate.camera_from_map, kSamePose)) continue;
+    EXPECT_GT(pose.log_chance, found().evidence.log_chance_first);
+  }
 }
 
 // What a track begins with, it follows.
