@@ -105,7 +105,8 @@ void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
   while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest < coarsest && !deadline.passed())
     ++finest;
   cut_ = cut_ || finest > 0;
-  if (finest > 0) sweepBand(finest - 1, gray, deadline);
+  // The octave before the band's, which it is made from, must be this image's.
+  if (finest > 0 && space_.octave() + 1 >= finest) sweepBand(finest - 1, gray, deadline);
 }
 
 int32_t FeatureExtractor::finestWithin(const Deadline &deadline) const {

@@ -133,6 +133,20 @@ TEST_F(FeatureDeadline, CoarseKeypointsAreWhereTheyWere) {
   EXPECT_GT(found_again, 0.8 * static_cast<double>(half.keypoints.size()));
 }
 
+// Where most of the time is gone while octaves are skimmed, the band below them would be made of the image before.
+TEST_F(FeatureDeadline, NothingIsFoundOfTheImageBefore) {
+  constexpr int64_t kTimeNs = 900000, kLateNs = 730000;  // of an extractor whose pace is not known yet
+  const TestImage blank = draw(640, 480, [](double, double) { return 128; });
+  for (uint64_t late_read = 1; late_read < 40; ++late_read) {
+    useImage(spots(640, 480, 7));
+    (*extractor_)(image_);
+    test::SteppingClock clock(kStepNs / 10);
+    clock.late_read = late_read;
+    clock.late_by_ns = kLateNs;
+    EXPECT_EQ((*extractor_)(blank, clock.deadline(kTimeNs)).keypoints.size(), 0u) << "late at " << late_read;
+  }
+}
+
 TEST_F(FeatureDeadline, NoiseEverywhereIsCutToo) {
   useImage(noise(640, 480, 3));
   const auto all = static_cast<int64_t>(looksOfAll());
