@@ -111,8 +111,7 @@ void checkSamePlace(const BuildOptions &options, const Place &place) {
         std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
     if (is_file && !options.force && !did_release(place, path))
       throw std::runtime_error(path + " belongs to another place of the ledger than this recording shows, place " +
-                               std::to_string(place.number) +
-                               "; choose another name for its map, or replace it with --force");
+                               std::to_string(place.number) + "; choose another name for its map");
   };
   check(options.map, didRelease);
   check(notePath(options), didReleaseNoted);

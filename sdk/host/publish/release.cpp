@@ -40,13 +40,26 @@ std::vector<Recognition> recognizeAll(const std::vector<Place> &places, const Po
   return recognitions;
 }
 
-// The place that knows most of the model's points, if it knows enough of them; else null.
+// The place, among those that know enough of the model's points, that knows most of them; else null.  What a later
+// place knows too was published anew, so that it counts for that one alone.
 const Recognition *samePlace(const std::vector<Recognition> &recognitions, const PointModel &model) {
-  const Recognition *best = nullptr;
-  for (const Recognition &r : recognitions)
-    if (!best || r.known > best->known) best = &r;
   const double least = kSamePlaceShare * static_cast<double>(model.points.size());
-  return best && best->known > 0 && static_cast<double>(best->known) >= least ? best : nullptr;
+  std::vector<bool> is_counted(model.points.size());
+  const Recognition *best = nullptr;
+  size_t most = 0;
+  for (auto r = recognitions.rbegin(); r != recognitions.rend(); ++r) {
+    if (r->known == 0 || static_cast<double>(r->known) < least) continue;
+    size_t count = 0;
+    for (size_t i = 0; i < is_counted.size(); ++i) {
+      if (r->identities[i] != Identity::kKnown || is_counted[i]) continue;
+      is_counted[i] = true;
+      ++count;
+    }
+    if (best && count <= most) continue;
+    best = &*r;
+    most = count;
+  }
+  return best;
 }
 
 void refuseForeign(const Recognition *recognition, const PointModel &model) {

@@ -150,6 +150,9 @@ TEST_F(FilesTest, AMapOfAnotherPlaceOfTheLedgerStays) {
                  " --new-place --i-understand --eta 0.5",
              kExitFailure, "another place of the ledger");
   EXPECT_EQ(runCommand(build + " --new-place --i-understand --eta 0.5").exit_code, kExitDone);
+  const Answer update = runCommand(build + " --json");
+  EXPECT_EQ(update.exit_code, kExitDone) << update.err;
+  EXPECT_EQ(nlohmann::json::parse(update.out)["release"]["place"], 2) << "the first one was given up";
 }
 
 TEST_F(FilesTest, AFailedBuildLeavesNoLedger) {

@@ -339,6 +339,35 @@ TEST(Release, WhoUnderstandsMayPublishTwice) {
   EXPECT_EQ(second.place.number, 2u);
   EXPECT_EQ(second.summary.added, 1000u);
   EXPECT_NE(setOf(second.file), setOf(first.file));
+  // What was given up is not updated: the later map is what the place has now.
+  const PointModel later = test::seenLater(room, 900, test::madeUpRoom(200, 9, {10.5, -4, 2}));
+  const NewRelease third = makeRelease(later, releaseRequest({first.place, second.place}));
+  EXPECT_TRUE(third.summary.is_update);
+  EXPECT_EQ(third.place.number, 2u);
+  EXPECT_EQ(third.summary.added, 200u);
+  EXPECT_TRUE(contains(setOf(third.file), setOf(second.file)));
+}
+
+// The map that was given up has more of the place than the one that was published anew.
+TEST(Release, AMapThatWasGivenUpIsNotUpdatedThoughItKnowsMore) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  const NewRelease first = makeRelease(room, releaseRequest());
+  ReleaseRequest again = releaseRequest({first.place});
+  again.understood = true;
+  const NewRelease second = makeRelease(test::part(room, 0, 700), again);
+  const NewRelease third =
+      makeRelease(test::seenAgain(room, 3, test::otherWorld()), releaseRequest({first.place, second.place}));
+  EXPECT_EQ(third.place.number, 2u);
+  EXPECT_EQ(third.summary.elsewhere, 300u) << "what the other map alone has stays there";
+}
+
+TEST(Release, OfTwoPlacesThatARecordingShowsTheOneItShowsMoreOfIsUpdated) {
+  const PointModel room = test::madeUpRoom(1000, 1), next = test::madeUpRoom(1000, 5, {14, -4, 2});
+  const NewRelease first = makeRelease(room, releaseRequest());
+  const NewRelease second = releaseAfter(first, next);
+  EXPECT_EQ(second.place.number, 2u);
+  const PointModel both = test::joined(test::part(room, 0, 600), test::part(next, 0, 400));
+  EXPECT_EQ(makeRelease(both, releaseRequest({first.place, second.place})).place.number, 1u);
 }
 
 TEST(Release, BadModelsAreExplained) {
