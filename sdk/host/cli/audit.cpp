@@ -50,14 +50,18 @@ FileUse fileUse(const AuditOptions &options) {
   return files;
 }
 
-// The place of the ledger that released this file.
-Place placeOf(const AuditOptions &options, const std::vector<uint8_t> &file) {
-  for (const Place &place : Ledger::openToRead(options.truth).places()) {
-    const Release *released = releaseOf(place, file);
+// The place of the ledger that released this file, as it was then, and what else shows its points.
+void readTruth(const AuditOptions &options, AuditInput *input) {
+  const std::vector<Place> places = Ledger::openToRead(options.truth).places();
+  for (const Place &place : places) {
+    const Release *released = releaseOf(place, input->file);
     if (!released) continue;
-    Place then = place;
-    then.points.resize(released->points);
-    return then;
+    input->place = place;
+    input->place->points.resize(released->points);
+    for (const Place &other : places)
+      if (other.number != place.number && shareAPoint(other, *input->place))
+        input->other_releases.insert(input->other_releases.end(), other.releases.begin(), other.releases.end());
+    return;
   }
   throw std::runtime_error("ledger " + options.truth + " did not release " + options.map +
                            "; give the ledger it was built with, and the file as it was built");
@@ -145,7 +149,7 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   input.releases = readReleases(options, input.file);
   input.networks = networksOf(options);
   if (options.truth.empty()) return input;
-  input.place = placeOf(options, input.file);
+  readTruth(options, &input);
   if (options.recording.folder.empty()) return input;
   std::vector<PointModel> frames = importFrames(options.recording, options.queries, "querying  ", console);
   checkWorld(

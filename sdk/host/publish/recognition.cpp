@@ -80,6 +80,12 @@ double scaleToPlace(const Place &place, const PointModel &model, double least_kn
   return scale * r.place_from_model.front().scale;
 }
 
+bool shareAPoint(const Place &a, const Place &b) {
+  PointModel model;
+  for (const PlacePoint &point : b.points) model.points.push_back(point.seen);
+  return recognize(a, model).known > 0 || scaleToPlace(a, model, 1) != 0;
+}
+
 size_t knownInPlaceFrame(const Place &place, const PointModel &model) {
   return recognizeBy({Similarity()}, place, model).known;
 }

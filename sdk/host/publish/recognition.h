@@ -31,6 +31,9 @@ Recognition recognize(const Place &place, const PointModel &model);
 // more; 0 where that is not so, or where it is a metric model of it as it stands.
 double scaleToPlace(const Place &place, const PointModel &model, double least_known);
 
+// Whether two places have points in common: one was published anew, in whatever frame and unit.
+bool shareAPoint(const Place &a, const Place &b);
+
 // Points that the place has where the model says, whose world is the place's.
 size_t knownInPlaceFrame(const Place &place, const PointModel &model);
 

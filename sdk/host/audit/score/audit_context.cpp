@@ -23,9 +23,10 @@ uint32_t crcOf(const std::vector<uint8_t> &file) { return crc32(0, file.data(), 
 size_t releasesNotGivenOf(const AuditInput &input) {
   std::set<uint32_t> given = {crcOf(input.file)};
   for (const std::vector<uint8_t> &release : input.releases) given.insert(crcOf(release));
-  const auto &releases = input.place->releases;
-  return static_cast<size_t>(std::count_if(releases.begin(), releases.end(),
-                                           [&](const Release &release) { return !given.count(release.crc32); }));
+  size_t not_given = 0;
+  for (const auto *releases : {&input.place->releases, &input.other_releases})
+    for (const Release &release : *releases) not_given += !given.count(release.crc32);
+  return not_given;
 }
 
 // The paper's fakes do not.

@@ -40,7 +40,7 @@ class AuditContext {
   const AuditInput &input() const { return input_; }
   const Published &map() const { return map_; }
   void tellDone(double share) const { progress_(share); }
-  // Other releases of the place that the ledger lists and the input does not have.
+  // Other releases of the place, or of its points, that the ledger lists and the input does not have.
   size_t releasesNotGiven() const { return releases_not_given_; }
 
   // Of attacks that need the truth alone.

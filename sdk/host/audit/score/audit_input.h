@@ -14,6 +14,7 @@ struct AuditInput {
   std::vector<uint8_t> file;
   std::string networks;                          // folder of the attackers' trained files; empty: none
   std::optional<Place> place;                    // the owner's truth; without it some attacks cannot be scored
+  std::vector<Release> other_releases;           // of other places of the ledger that show points of this one
   std::vector<InversionView> views;              // pictures of the place from the centre; else pseudo truth
   std::vector<std::vector<uint8_t>> releases;    // other maps of the place that were published
   std::vector<std::vector<ModelPoint>> queries;  // frames of a client, in the place's frame

@@ -253,6 +253,19 @@ TEST_F(FilesTest, AnAuditBesideTheMapItselfIsRefused) {
   EXPECT_THAT(itself.err, HasSubstr("itself.sphc is the map that is audited; give the other releases"));
 }
 
+// Two places of the ledger, and the same points.
+TEST_F(FilesTest, AnAuditMissesTheMapThatWasPublishedBefore) {
+  const std::string ledger = at("anew.ledger"), before = at("before.sphc"), anew = at("anew.sphc");
+  const std::string build = "build -r " + at("walk") + " --ledger " + ledger + " -m ";
+  ASSERT_EQ(runCommand(build + before).exit_code, kExitDone);
+  ASSERT_EQ(runCommand(build + anew + " --i-understand").exit_code, kExitDone);
+  const std::string audit = "audit " + anew + " --truth " + ledger + " --quick --only intersection_gain";
+  const Answer missing = runCommand(audit);
+  EXPECT_EQ(missing.exit_code, kExitAuditIncomplete) << missing.err;
+  EXPECT_THAT(missing.out, HasSubstr("needs the other releases of the place (--release)"));
+  EXPECT_EQ(runCommand(audit + " --release " + before).exit_code, kExitAuditFailed);
+}
+
 TEST_F(FilesTest, AReleaseThatIsNoMapIsRefusedByItsNameBeforeTheAttacks) {
   put("release.sphc", "no map");
   const Answer answer = runCommand("audit " + at("room.sphc") + " --only file --release " + at("release.sphc"));

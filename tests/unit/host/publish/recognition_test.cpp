@@ -53,6 +53,17 @@ TEST(Recognition, AModelInAnotherUnitIsToldWithIt) {
   EXPECT_EQ(scaleToPlace(placeOf(room), test::madeUpRoom(1000, 2), 300), 0);
 }
 
+TEST(Recognition, PlacesThatSharePointsAreTold) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  const Place place = placeOf(test::part(room, 0, 600));
+  PointModel part = test::seenAgain(test::part(room, 500, 500), 2, test::otherWorld());
+  EXPECT_TRUE(shareAPoint(place, placeOf(part)));
+  for (ModelPoint &point : part.points) point.position_m *= 5;
+  EXPECT_TRUE(shareAPoint(place, placeOf(part)));
+  EXPECT_FALSE(shareAPoint(place, placeOf(test::part(room, 600, 400)))) << "of one room, and what was left over";
+  EXPECT_FALSE(shareAPoint(place, placeOf(test::madeUpRoom(1000, 2))));
+}
+
 TEST(Recognition, ThePlacesFrameIsToldFromAnother) {
   const PointModel room = test::madeUpRoom(1000, 1);
   EXPECT_EQ(knownInPlaceFrame(placeOf(room), test::seenAgain(room, 2)), 1000u);

@@ -179,6 +179,21 @@ TEST(MapAudit, AReleaseThatTheLedgerListsAndNobodyGivesIsMissed) {
               testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
 }
 
+// As a map has that the same ledger made of the place anew.
+TEST(MapAudit, AReleaseOfAnotherPlaceWithTheSamePointsIsMissed) {
+  const PointModel room = test::madeUpRoom(600, 1);
+  const test::MadeUpRelease first = test::released(room, 1, 1.0 / 3), second = test::released(room, 2, 1.0 / 3);
+  AuditInput input = inputOf(second);
+  input.other_releases = first.place.releases;
+  AuditRules rules;
+  rules.only = {"triangulation", "intersection_gain"};
+  EXPECT_EQ(figure(audit(input, rules), "triangulation.pose_found").verdict(), Verdict::kNotMeasured);
+  EXPECT_EQ(figure(audit(input, rules), "intersection.gain").verdict(), Verdict::kNotMeasured);
+  input.releases = {first.file};
+  EXPECT_EQ(figure(audit(input, rules), "intersection.gain").verdict(), Verdict::kBroken);
+  EXPECT_THAT(audit(input, rules).missingGates(), Not(Contains("intersection.gain")));
+}
+
 TEST(MapAudit, ACarelessSecondReleaseIsFound) {
   const PointModel room = test::madeUpRoom(600, 1);
   AuditInput input = inputOf(test::released(room, 1, 1.0 / 3));
