@@ -121,7 +121,8 @@ const PaperControl &AuditContext::paper() {
     points.push_back({unprotected().directions[i], unprotected().descriptors[i]});
   SecretRandom random(kControlKey);
   shuffle(&points, &random);
-  const auto real_count = static_cast<size_t>(eta_ * static_cast<double>(points.size()));
+  // As build rounds; the share of one point may come out a little too small.
+  const size_t real_count = std::max(size_t{1}, static_cast<size_t>(eta_ * static_cast<double>(points.size())));
   paper_ = PaperControl{knownCloud(gaussianFakes()->assignments(points, real_count, &random)), {}};
   paper_->study = studyOf(paper_->cloud.published, paper_->cloud.real, {}, input_.networks);
   return *paper_;

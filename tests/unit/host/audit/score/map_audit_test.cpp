@@ -280,6 +280,14 @@ TEST(MapAudit, PhotosThatShowTooLittleMeasureNothing) {
   EXPECT_THAT(figure(result, "presence.auc").remark, HasSubstr("no photo shows 40 points"));
 }
 
+// A 103rd of 103 is a little less than one.
+TEST(MapAudit, OneRealPointIsEnoughForThePapersFakes) {
+  AuditRules rules;
+  rules.only = {"real_or_fake"};
+  const AuditInput input = inputOf(test::released(test::madeUpRoom(103, 1), 1, 0.015));
+  EXPECT_TRUE(figure(audit(input, rules), "real_or_fake.auc_paper").value);
+}
+
 // Nothing is hidden, and there are too few points for a picture: that is no reason to hold.
 TEST(MapAudit, AMapOfRealPointsAloneFailsClosed) {
   const AuditInput input = inputOf(test::released(test::madeUpRoom(70, 1), 1, 1));
