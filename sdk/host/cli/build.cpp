@@ -64,16 +64,20 @@ void warnOfOtherLedger(const BuildOptions &options, const Console &console) {
 
 std::string notePath(const BuildOptions &options) { return options.map + ".owner.json"; }
 
+std::optional<MapId> notedRelease(const std::string &note) {
+  try {
+    return readOwnerNote(note).map_id;
+  } catch (const std::runtime_error &) {  // no note
+    return {};
+  }
+}
+
 // Whether a place, where that is known, released the map file or the map of the note.
 bool didRelease(const Place &place, const std::string &map) { return releaseOf(place, readBytes(map)) != nullptr; }
 bool didReleaseNoted(const Place &place, const std::string &note) {
-  try {
-    const MapId id = readOwnerNote(note).map_id;
-    return std::any_of(place.releases.begin(), place.releases.end(),
-                       [&id](const Release &release) { return release.map_id == id; });
-  } catch (const std::runtime_error &) {  // no note
-    return false;
-  }
+  const std::optional<MapId> id = notedRelease(note);
+  return id && std::any_of(place.releases.begin(), place.releases.end(),
+                           [&id](const Release &release) { return release.map_id == *id; });
 }
 using DidRelease = bool(const Place &place, const std::string &path);
 
@@ -101,6 +105,33 @@ FileUse fileUse(const BuildOptions &options) {
   files.writes("--save-model", options.save_model, isModelFile);
   files.keeps("--ledger", ledgerPath(options));
   return files;
+}
+
+std::vector<Place> placesOfOthers(const BuildOptions &options) {
+  std::vector<Place> places;
+  for (const std::string &path : options.against)
+    for (Place &place : Ledger::openToRead(path).places()) places.push_back(std::move(place));
+  return places;
+}
+
+// Where the ledger was lost, or an old copy of it came back, nothing else would stop a second map of the place.
+void checkLedgerIsHere(const BuildOptions &options) {
+  const std::string ledger = ledgerPath(options), note = notePath(options);
+  if (options.understood || !notedRelease(note)) return;
+  const bool is_there = std::filesystem::exists(ledger);
+  std::vector<Place> places = placesOfOthers(options);
+  if (is_there)
+    for (Place &place : Ledger::openToRead(ledger).places()) places.push_back(std::move(place));
+  if (std::any_of(places.begin(), places.end(), [&](const Place &place) { return didReleaseNoted(place, note); }))
+    return;
+  const std::string why = is_there ? ledger + " does not know that release, being another ledger or an older one"
+                                   : "there is no " + ledger;
+  throw std::runtime_error(options.map + " was released, as " + note +
+                           " says, by a ledger that is not here: " + why +
+                           ". A second, independent map of one place exposes the points that both have. Restore "
+                           "the newest backup of the ledger, or give the right one by --ledger; for a map of "
+                           "another place choose another name; or, if no copy of the map left the house, say "
+                           "--i-understand, with --force to replace it");
 }
 
 // Releases of one place replace each other; those of another place are another map.
@@ -132,13 +163,6 @@ Ledger openLedger(const BuildOptions &options) {
   return Ledger::openOrMake(ledgerPath(options), &key);
 }
 
-std::vector<Place> placesOfOthers(const BuildOptions &options) {
-  std::vector<Place> places;
-  for (const std::string &path : options.against)
-    for (Place &place : Ledger::openToRead(path).places()) places.push_back(std::move(place));
-  return places;
-}
-
 ReleaseRequest requestOf(const BuildOptions &options, const Ledger &ledger, const FakeStrategy *strategy) {
   ReleaseRequest request;
   request.own = ledger.places();
@@ -167,6 +191,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
+  checkLedgerIsHere(options);
   fileUse(options).check();
   warnOfOtherLedger(options, console);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);

@@ -116,6 +116,23 @@ TEST_F(FilesTest, AMapWithoutFakesIsWarnedOf) {
       testing::Not(HasSubstr("nothing is faked")));
 }
 
+// What it protects against would else be done by the option that replaces a file.
+TEST_F(FilesTest, AMapWhoseLedgerIsGoneIsNotReleasedAnew) {
+  const std::string map = at("lost.sphc"), ledger = at("lost.ledger"), kept = at("kept.ledger");
+  const std::string build = "build -r " + at("walk") + " -m " + map + " --ledger ";
+  ASSERT_EQ(runCommand(build + ledger).exit_code, kExitDone);
+  fs::rename(ledger, kept);
+  for (const char *force : {"", " --force"}) {
+    expectKept(map, build + ledger + force, kExitFailure, "there is no " + ledger);
+    EXPECT_FALSE(fs::exists(ledger));
+    expectKept(map, build + at("spherecloud.ledger") + force, kExitFailure, "does not know that release");
+  }
+  expectKept(map, build + ledger + " --force --against " + kept, kExitFailure, "released by another ledger");
+  EXPECT_EQ(runCommand(build + kept).exit_code, kExitDone) << "restored";
+  const Answer understood = runCommand(build + ledger + " --i-understand --force");
+  EXPECT_EQ(understood.exit_code, kExitDone) << understood.err;
+}
+
 TEST_F(FilesTest, AModelIsSavedOverNothingElse) {
   const std::string build = "build -r " + at("walk") + " -m " + at("room.sphc") + " --save-model ";
   expectKept(at("room.sphc"), build + at("room.sphc"), kExitUsage, "are one file");
@@ -135,7 +152,8 @@ TEST_F(FilesTest, BuildReplacesItsOwnMapAlone) {
   EXPECT_FALSE(fs::exists(at("other.ledger"))) << "a refused build made a ledger";
   EXPECT_FALSE(fs::exists(at("new.sphc")));
   // Another ledger did not release this map.
-  expectKept(at("room.sphc"), build + at("room.sphc") + " --ledger " + at("other.ledger"), kExitFailure, "--force");
+  expectKept(at("room.sphc"), build + at("room.sphc") + " --ledger " + at("other.ledger"), kExitFailure,
+             "by a ledger that is not here");
   EXPECT_EQ(runCommand(build + at("room.sphc")).exit_code, kExitDone) << "its own map";
   EXPECT_EQ(runCommand(build + at("foreign.sphc") + " --force").exit_code, kExitDone);
 }
