@@ -148,6 +148,15 @@ void checkSamePlace(const BuildOptions &options, const Place &place) {
   check(notePath(options), didReleaseNoted);
 }
 
+// Said before anything is recorded: what is, cannot be taken back.
+void warnOfBarePoints(double eta, const Console &console) {
+  if (eta < 1) return;
+  console.warn(
+      "Warning: at --eta 1 nothing is faked: every direction of the map shows a real point. Ship it only where "
+      "anybody may know the place; else build without --eta, and if the ledger has this map already and no copy "
+      "left the house, with --i-understand and another name for the map");
+}
+
 // What is published cannot be taken back.
 void checkContradictions(const BuildOptions &options, const ImportedPoints &imported) {
   if (imported.contradictions.empty() || options.anyway) return;
@@ -195,6 +204,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   fileUse(options).check();
   warnOfOtherLedger(options, console);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
+  if (options.eta) warnOfBarePoints(*options.eta, console);
   const Interrupt interrupt;  // from before there is a ledger
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
@@ -206,6 +216,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   checkSamePlace(options, made.place);
+  if (!options.eta) warnOfBarePoints(made.place.eta, console);
   interrupt.throwIfCame();  // the last time: what is recorded is brought to its end
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);
@@ -282,10 +293,6 @@ int run(const CLI::App &app, const BuildOptions &options, const Console &console
   checkFakes(app, options.fakes);
   const Outcome outcome = build(options, console);
   const MapId &map_id = outcome.place.releases.back().map_id;
-  if (outcome.place.eta >= 1)
-    console.warn(
-        "Warning: at --eta 1 nothing is faked: every direction of the map shows a real point. Ship it only where "
-        "anybody may know the place; else build with a smaller --eta and --new-place, or without --eta");
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
   tell(options, outcome, console);
   nlohmann::ordered_json json = {{"map", options.map},

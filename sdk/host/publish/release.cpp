@@ -98,7 +98,7 @@ void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &requ
     throw std::runtime_error(
         "place " + std::to_string(place.number) +
         " was released for another band, and the recording shows the same; give the --band of that "
-        "release, or make a new place if that was wrong");
+        "release, or, if that was wrong and no copy of its map left the house, say --i-understand");
   if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
   if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +
@@ -125,7 +125,7 @@ void refuseLittleNew(size_t fresh, const PointModel &model, const ReleaseSummary
       "--new-place: of " + std::to_string(model.points.size()) + " points " + std::to_string(summary.elsewhere) +
       " are published already, and " + std::to_string(fresh) +
       " are left, too few for a map of their own; leave --new-place out, and the build updates the map that has "
-      "them, or record what no map shows");
+      "them, or record what no map shows, or, if no copy of that map left the house, say --i-understand");
 }
 
 // Points that nobody has published, sorting out the others.

@@ -110,6 +110,12 @@ TEST_F(FilesTest, AMapWithoutFakesIsWarnedOf) {
   const Answer bare = runCommand(build + at("bare.ledger") + " --eta 1");
   ASSERT_EQ(bare.exit_code, kExitDone) << bare.err;
   EXPECT_THAT(bare.err, HasSubstr("Warning: at --eta 1 nothing is faked"));
+  EXPECT_THAT(runCommand(build + at("bare.ledger")).err, HasSubstr("nothing is faked")) << "an update";
+  const Answer cured = runCommand("build -r " + at("walk") + " -m " + at("cured.sphc") + " --ledger " +
+                                  at("bare.ledger") + " --i-understand --json");
+  ASSERT_EQ(cured.exit_code, kExitDone) << cured.err;
+  EXPECT_LT(nlohmann::json::parse(cured.out)["eta"], 0.5) << "as the warning says";
+  EXPECT_THAT(cured.err, Not(HasSubstr("nothing is faked")));
   EXPECT_THAT(
       runCommand("build -r " + at("walk") + " -m " + at("faked.sphc") + " --eta 0.5 --ledger " + at("faked.ledger"))
           .err,

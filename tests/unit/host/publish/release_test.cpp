@@ -311,7 +311,12 @@ TEST(Release, APlaceKeepsItsBand) {
   EXPECT_EQ(view.band(), SPHC_BAND_INFRARED);
   EXPECT_EQ(refusal(room, releaseRequest({first.place})), "");
   room.band = SPHC_BAND_VISIBLE;
-  EXPECT_THAT(refusal(room, releaseRequest({first.place})), HasSubstr("--band"));
+  ReleaseRequest request = releaseRequest({first.place});
+  EXPECT_THAT(refusal(room, request), AllOf(HasSubstr("--band"), HasSubstr("say --i-understand")));
+  request.understood = true;
+  const NewRelease put_right = makeRelease(room, request);
+  EXPECT_EQ(put_right.place.number, 2u);
+  EXPECT_EQ(makeRelease(room, releaseRequest({first.place, put_right.place})).place.number, 2u);
 }
 
 TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
@@ -325,7 +330,8 @@ TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
   EXPECT_EQ(second.summary.added, 500u);
   for (const std::string &name : descriptorsOf(second.file)) EXPECT_EQ(descriptorsOf(first.file).count(name), 0u);
   EXPECT_THAT(refusal(test::part(room, 0, 1000), anew),
-              AllOf(HasSubstr("of 1000 points 1000 are published already"), HasSubstr("leave --new-place out")));
+              AllOf(HasSubstr("of 1000 points 1000 are published already"), HasSubstr("leave --new-place out"),
+                    HasSubstr("say --i-understand")));
   anew.own = {};
   EXPECT_THAT(refusal(test::part(room, 0, 20), anew), HasSubstr("record more frames")) << "nothing was published";
 }
