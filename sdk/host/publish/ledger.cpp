@@ -282,8 +282,11 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
   checkMode(path);
   Ledger ledger(path, SQLITE_OPEN_READWRITE);
   ledger.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
-  if (is_new) ledger.database_.get_deleter().unrecorded = path;
-  if (ledger.isEmpty()) ledger.make(key ? *key : newSecretKey());
+  if (ledger.isEmpty()) {
+    // Another program may have filled a new file before this one had it alone.
+    if (is_new) ledger.database_.get_deleter().unrecorded = path;
+    ledger.make(key ? *key : newSecretKey());
+  }
   ledger.run("COMMIT");
   ledger.read(key);
   const int64_t version = versionOf(ledger.database_.get());
