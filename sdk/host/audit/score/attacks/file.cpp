@@ -32,8 +32,8 @@ Attack fileCuesAttack() {
             double worst = 0;
             for (const Cue &cue : fileCues(context->map())) {
               const Auc auc = scoreCue(cue, context->truth());
-              // A cue that is never wrong has no error at all.
-              worst = std::max(worst, std::abs(auc.value - 0.5) / std::max(auc.standard_error, kLeastError));
+              // Nearly all directions differ, so that those which do not are a cue however few they are.
+              worst = std::max(worst, std::abs(auc.value - 0.5) / std::max(auc.chance_error, kLeastError));
             }
             return AttackResult{{{"file.cues_sigma", worst}}};
           }};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "runtime/base/random.h"
 
 namespace sphc::host {
@@ -31,6 +33,27 @@ TEST(Auc, StandardErrorIsThatOfChance) {
     error += auc.standard_error / kRounds;
   }
   EXPECT_NEAR(error, std::sqrt(squares), 0.01);
+}
+
+// Few of many entries score apart from the others, which all score the same.
+TEST(Auc, ChanceErrorKnowsOfTies) {
+  Random random(1);
+  double squares = 0, error = 0;
+  constexpr int kRounds = 400;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> scores;
+    std::vector<bool> positive;
+    for (int i = 0; i < 900; ++i) {
+      scores.push_back(random.below(20) == 0);
+      positive.push_back(i % 3 == 0);
+    }
+    const Auc auc = areaUnderCurve(scores, positive);
+    squares += (auc.value - 0.5) * (auc.value - 0.5) / kRounds;
+    error += auc.chance_error / kRounds;
+    EXPECT_GT(auc.standard_error, 2 * auc.chance_error);
+  }
+  EXPECT_NEAR(error, std::sqrt(squares), 0.001);
+  EXPECT_EQ(areaUnderCurve({5, 5, 5}, {true, false, true}).chance_error, 0);
 }
 
 }  // namespace

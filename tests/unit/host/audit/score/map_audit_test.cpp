@@ -79,6 +79,28 @@ TEST(MapAudit, TellsHowMuchIsDoneWithinAnAttackToo) {
   EXPECT_GT(std::set<uint32_t>(told.begin(), told.end()).size(), 8u);
 }
 
+// Hardly two directions are equal, but where they are, both are of fakes.
+TEST(MapAudit, ARareCueThatIsNeverWrongBreaksTheLimit) {
+  test::MadeUpRelease release = test::released(test::madeUpRoom(6000, 1), 1, 1.0 / 3);
+  const PackedDirection *free = nullptr;  // of a fake whose direction no other fake has taken yet
+  size_t taken = 0;
+  for (PlacePoint &point : release.place.points) {
+    if (point.real || taken == 200) continue;
+    if (!free) {
+      free = &point.direction;
+    } else {
+      point.direction = *free;
+      free = nullptr;
+      ++taken;
+    }
+  }
+  release.file = encodeMap(publishedCloud(release.place, {1}), {});
+  release.place.releases.clear();
+  AuditRules rules;
+  rules.only = {"file_cues"};
+  EXPECT_GT(figure(audit(inputOf(release), rules), "file.cues_sigma").value, 10);
+}
+
 // Its error is zero, which no number of sigmas says.
 TEST(MapAudit, ACueThatIsNeverWrongIsANumberOfSigmas) {
   test::MadeUpRelease release = withEvenFakes(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
