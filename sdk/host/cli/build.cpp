@@ -149,12 +149,16 @@ void checkSamePlace(const BuildOptions &options, const Place &place) {
 }
 
 // Said before anything is recorded: what is, cannot be taken back.
-void warnOfBarePoints(double eta, const Console &console) {
-  if (eta < 1) return;
-  console.warn(
-      "Warning: at --eta 1 nothing is faked: every direction of the map shows a real point. Ship it only where "
-      "anybody may know the place; else build without --eta, and if the ledger has this map already and no copy "
-      "left the house, with --i-understand and another name for the map");
+void warnOfBarePoints(double eta, const std::string &fakes, const Console &console) {
+  if (eta >= 1)
+    console.warn(
+        "Warning: at --eta 1 nothing is faked: every direction of the map shows a real point. Ship it only where "
+        "anybody may know the place; else build without --eta, and if the ledger has this map already and no copy "
+        "left the house, with --i-understand and another name for the map");
+  else if (eta > 0.5 && fakes != "gaussian")
+    console.warn("Warning: at --eta " + fixed(eta, 2) + " about " + fixed(100 * (2 - 1 / eta), 0) +
+                 " % of the patches that are real have no fake on them, and show the place as it is; give an --eta "
+                 "of at most 0.5");
 }
 
 // What is published cannot be taken back.
@@ -204,7 +208,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   fileUse(options).check();
   warnOfOtherLedger(options, console);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
-  if (options.eta) warnOfBarePoints(*options.eta, console);
+  if (options.eta) warnOfBarePoints(*options.eta, options.fakes.empty() ? kDefaultFakes : options.fakes, console);
   const Interrupt interrupt;  // from before there is a ledger
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
@@ -216,7 +220,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   checkSamePlace(options, made.place);
-  if (!options.eta) warnOfBarePoints(made.place.eta, console);
+  if (!options.eta) warnOfBarePoints(made.place.eta, made.place.strategy, console);
   interrupt.throwIfCame();  // the last time: what is recorded is brought to its end
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);

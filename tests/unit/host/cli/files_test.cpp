@@ -122,6 +122,17 @@ TEST_F(FilesTest, AMapWithoutFakesIsWarnedOf) {
       testing::Not(HasSubstr("nothing is faked")));
 }
 
+TEST_F(FilesTest, PatchesWithoutFakesAreWarnedOf) {
+  const auto warnings = [](const std::string &options) {
+    return runCommand("build -r " + at("walk") + " -m " + at("few.sphc") + " --ledger " + at("few.ledger") +
+                      " --force --i-understand " + options)
+        .err;
+  };
+  EXPECT_THAT(warnings("--eta 0.8"), HasSubstr("Warning: at --eta 0.80 about 75 % of the patches that are real"));
+  EXPECT_THAT(warnings("--eta 0.5"), Not(HasSubstr("have no fake")));
+  EXPECT_THAT(warnings("--eta 0.8 --fakes gaussian"), Not(HasSubstr("have no fake")));
+}
+
 // What it protects against would else be done by the option that replaces a file.
 TEST_F(FilesTest, AMapWhoseLedgerIsGoneIsNotReleasedAnew) {
   const std::string map = at("lost.sphc"), ledger = at("lost.ledger"), kept = at("kept.ledger");
