@@ -1,6 +1,7 @@
 // The one way from private points to a map, with release discipline: whatever is published of a place over time
-// reveals no more than its last map alone.  docs/release.md says how and why.  A map that never leaves the house
-// needs no ledger: a request with a key and nothing else.
+// shows no entry that its last map does not show, and tells beside it only which release each entry came with.
+// docs/release.md says how and why.  A map that never leaves the house needs no ledger: a request with a key and
+// nothing else.
 #pragma once
 #include <optional>
 #include <vector>
