@@ -19,6 +19,10 @@ RealOrFakeGuess guess(const std::string &attacker, const Eigen::ArrayXf &scores)
   return {attacker, {scores.begin(), scores.end()}};
 }
 
+RealOrFakeGuess cue(const std::string &attacker, const Eigen::ArrayXf &scores) {
+  return {attacker, {scores.begin(), scores.end()}, true};
+}
+
 }  // namespace
 
 RealOrFakeClassifier::RealOrFakeClassifier(const std::string &path)
@@ -53,9 +57,9 @@ std::vector<RealOrFakeGuess> guessRealOrFake(const Published &map, const std::st
       realOrFakeFeatures(map, neighbours, CoOccurrence(folder + "/co_occurrence.json"));
   const std::vector<uint32_t> stacks = stacksOf(map.directions);
   std::vector<RealOrFakeGuess> guesses = {
-      guess("density", features.density), guess("lookalikes", features.lookalikes),
-      guess("other stacks", lookalikesInOtherStacks(map.directions, neighbours.alike, stacks)),
-      guess("mirror", features.mirror), guess("co-occurrence", features.co_occurrence)};
+      cue("density", features.density), cue("lookalikes", features.lookalikes),
+      cue("other stacks", lookalikesInOtherStacks(map.directions, neighbours.alike, stacks)),
+      cue("mirror", features.mirror), cue("co-occurrence", features.co_occurrence)};
   for (const std::string strategy : kKnownStrategies) {
     const RealOrFakeClassifier classifier(folder + "/real_or_fake_" + strategy + ".json");
     guesses.push_back(guess("knows " + strategy, classifier.probabilities(features, neighbours.beside)));

@@ -30,6 +30,7 @@ Eigen::MatrixXf withNeighboursScores(const RealOrFakeFeatures &features, const N
 struct RealOrFakeGuess {
   std::string attacker;        // a cue, or the strategy whose fakes it knows
   std::vector<double> scores;  // a point each; larger: rather real
+  bool is_cue = false;         // nothing was learned of which way it points
 };
 
 // By all that `folder` (networks/ beside this file) has.  The strongest is the one to count.

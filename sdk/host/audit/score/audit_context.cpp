@@ -39,6 +39,7 @@ std::string bytesOf(const Descriptor &descriptor) {
 RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, const std::vector<uint32_t> &layers,
                         const std::string &networks) {
   std::vector<RealOrFakeGuess> guesses = guessRealOrFake(map, networks);
+  turnCues(real, &guesses);
   RealOrFakeStudy study = {scoreRealOrFake(guesses, real, layers), {}};
   const auto strongest = std::max_element(study.scores.begin(), study.scores.end() - 1,
                                           [](const auto &a, const auto &b) { return a.auc < b.auc; });

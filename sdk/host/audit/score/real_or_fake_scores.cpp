@@ -8,6 +8,13 @@
 
 namespace sphc::host {
 
+void turnCues(const std::vector<bool> &real, std::vector<RealOrFakeGuess> *guesses) {
+  for (RealOrFakeGuess &guess : *guesses) {
+    if (!guess.is_cue || areaUnderCurve(guess.scores, real).value >= 0.5) continue;
+    for (double &score : guess.scores) score = -score;
+  }
+}
+
 std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess> &guesses,
                                               const std::vector<bool> &real, const std::vector<uint32_t> &layers) {
   const auto reals = static_cast<double>(std::count(real.begin(), real.end(), true));

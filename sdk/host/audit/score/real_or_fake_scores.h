@@ -14,6 +14,10 @@ struct RealOrFakeScores {
   double auc_of_layers;  // each point with the mean score of its layer; 0 where there are none
 };
 
+// A cue that points the other way in this map, so that its AUC is below 1/2, is turned over: who trains on such
+// maps knows which way it points.
+void turnCues(const std::vector<bool> &real, std::vector<RealOrFakeGuess> *guesses);
+
 // One an attacker, and last "strongest": of each figure the most that any of them reaches.  `layers`: of layersOf,
 // or of who made the fakes; empty where fakes lie in no layers.
 std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess> &guesses,

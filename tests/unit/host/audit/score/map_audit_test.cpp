@@ -60,9 +60,23 @@ TEST(MapAudit, TheFileItselfHolds) {
   double strongest = 0;
   std::vector<bool> real;
   for (const EntryTruth &entry : release.truth) real.push_back(entry.real);
-  for (const RealOrFakeGuess &guess : guessRealOrFake(release.map, SPHC_NETWORKS))
+  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(release.map, SPHC_NETWORKS);
+  turnCues(real, &guesses);
+  for (const RealOrFakeGuess &guess : guesses)
     strongest = std::max(strongest, areaUnderCurve(guess.scores, real).value);
   EXPECT_EQ(figure(result, "real_or_fake.auc").value, strongest);
+}
+
+// Where few fakes lie on many real patches, the dense ones are fakes.
+TEST(MapAudit, ACueThatPointsTheOtherWayTellsToo) {
+  AuditRules rules;
+  rules.only = {"real_or_fake"};
+  const MapAudit result =
+      audit(inputOf(test::released(test::madeUpRoom(1500, 1), 1, 0.8, {}, patchworkFakes().get())), rules);
+  const auto density = std::find_if(result.real_or_fake.begin(), result.real_or_fake.end(),
+                                    [](const RealOrFakeScores &score) { return score.attacker == "density"; });
+  ASSERT_NE(density, result.real_or_fake.end());
+  EXPECT_GT(density->auc, 0.6);
 }
 
 TEST(MapAudit, TellsHowMuchIsDoneWithinAnAttackToo) {

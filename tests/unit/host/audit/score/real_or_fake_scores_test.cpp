@@ -32,6 +32,15 @@ TEST(RealOrFakeScores, TheStrongestIsTheMostOfEachFigure) {
   EXPECT_EQ(scores[1].precision_at_tenth, 0);
 }
 
+TEST(RealOrFakeScores, ACueThatPointsTheOtherWayIsTurnedAndWhatWasLearnedIsNot) {
+  std::vector<RealOrFakeGuess> guesses = {
+      {"cue", {1, 2, 3, 4}, true}, {"right cue", {4, 3, 2, 1}, true}, {"learned", {1, 2, 3, 4}}};
+  turnCues({true, true, false, false}, &guesses);
+  EXPECT_EQ(guesses[0].scores, (std::vector<double>{-1, -2, -3, -4}));
+  EXPECT_EQ(guesses[1].scores, (std::vector<double>{4, 3, 2, 1}));
+  EXPECT_EQ(guesses[2].scores, (std::vector<double>{1, 2, 3, 4}));
+}
+
 TEST(RealOrFakeScores, LayersAreToldByTheirMeans) {
   const auto scores =
       scoreRealOrFake({{"noisy", {1, 9, 2, 6, 3, 4}}}, {true, true, true, false, false, false}, {0, 0, 0, 1, 2, 2});
