@@ -7,6 +7,7 @@
 #include "host/base/checked_call.h"
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
+#include "host/cameras/number_text.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/few_warnings.h"
@@ -81,18 +82,19 @@ std::string statusText(const sphc_recorder_statistics &s, const RecordTally &tal
 
 void sayResult(const RecordOptions &options, const RecordTally &tally, const sphc_recorder_statistics &s,
                const Rig &rig, RecordGuide *guide, const Console &console) {
-  const uint64_t file_bytes = std::filesystem::file_size(options.out);
+  const uint64_t file_bytes = std::filesystem::file_size(options.out), pairs = rig.counts().pairs;
   console.say("Wrote " + options.out + ": " + counted(tally.color, "colour image") + " and " +
-              counted(tally.depth, "depth image") + ", " + humanBytes(static_cast<double>(file_bytes)) + " of " +
+              counted(tally.depth, "depth image") + " (" + counted(pairs, "pair") + "), " +
+              humanBytes(static_cast<double>(file_bytes)) + " of " +
               humanBytes(static_cast<double>(tally.raw_bytes)));
   console.say("Dropped: " + std::to_string(s.dropped_count) + ", never came: " + std::to_string(s.missing_count) +
               ", most waiting at once: " + std::to_string(s.queue_most));
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) console.say(troubles);
-  nlohmann::ordered_json json = {{"file", options.out},        {"color", tally.color},
-                                 {"depth", tally.depth},       {"dropped", s.dropped_count},
-                                 {"missing", s.missing_count}, {"raw_bytes", tally.raw_bytes},
-                                 {"file_bytes", file_bytes}};
+  nlohmann::ordered_json json = {{"file", options.out},          {"color", tally.color},
+                                 {"depth", tally.depth},         {"pairs", pairs},
+                                 {"dropped", s.dropped_count},   {"missing", s.missing_count},
+                                 {"raw_bytes", tally.raw_bytes}, {"file_bytes", file_bytes}};
   if (!guide) return console.give(json);
   json["guide"] = guide->end(console);
   console.giveLine(json);
@@ -108,6 +110,24 @@ void noteWhatStays(const Rig &rig, const Console &console) {
                (poses && accelerations ? " and " : "") +
                (accelerations ? counted(accelerations, "acceleration") : "") +
                " of the recording that is played; `spherecloud convert` keeps them");
+}
+
+// The guide sees pairs alone.
+std::string guideText(RecordGuide *guide, const Rig &rig) {
+  return rig.counts().pairs == 0 ? "no pair of images" : guide->text();
+}
+
+// Why no map can be made of what was recorded; "" where it has pairs.
+std::string whyOfNoUse(const RecordTally &tally, const Rig &rig, double tolerance_ms) {
+  if (tally.color == 0 || tally.depth == 0)
+    return std::string("Not one ") +
+           (tally.depth > 0   ? "colour "
+            : tally.color > 0 ? "depth "
+                              : "") +
+           "image came, so no map can be made of this.";
+  if (rig.counts().pairs > 0) return "";
+  return "Not one colour image met a depth image within " + briefText(tolerance_ms) +
+         " ms (--tolerance-ms); a map is made of such pairs.";
 }
 
 // Until the cameras end, a signal comes or the time is over.
@@ -135,7 +155,7 @@ void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *ri
       if (guide) guide->see(pair);
       rig->release(pair);
     }
-    line->show((guide ? guide->text() + " | " : "") + statusText(statisticsOf(recorder), *tally));
+    line->show((guide ? guideText(guide, *rig) + " | " : "") + statusText(statisticsOf(recorder), *tally));
   }
   line->wipe();
 }
@@ -182,13 +202,11 @@ int run(const RecordOptions &options, const Console &console) {
     throw std::runtime_error(std::string(error.what()) + "; what was recorded until then is in " +
                              recording.part());
   }
+  rig.endPairs();
   sayResult(options, tally, statistics, rig, guide.get(), console);
-  if (tally.color > 0 && tally.depth > 0) return kExitDone;
-  console.warn(std::string("Not one ") +
-               (tally.depth > 0   ? "colour "
-                : tally.color > 0 ? "depth "
-                                  : "") +
-               "image came, so no map can be made of this. `spherecloud doctor` says what the cameras do.");
+  const std::string why = whyOfNoUse(tally, rig, options.rig.tolerance_ms);
+  if (why.empty()) return kExitDone;
+  console.warn(why + " `spherecloud doctor` says what the cameras do.");
   return kExitFailure;
 }
 

@@ -41,6 +41,8 @@ class Rig {
   // The next pair, within a timeout; to be released.
   Got next(std::chrono::milliseconds timeout, CapturePair *pair);
   void release(const CapturePair &pair);
+  // When no more is asked for: what still waits for a partner is counted as a pair or as none.
+  void endPairs() { emptyPairer(); }
   // How often a camera was lost: pairs from before a loss are void.
   uint32_t losses() const { return losses_; }
 

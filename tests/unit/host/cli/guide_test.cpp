@@ -20,15 +20,16 @@ using testing::HasSubstr;
 constexpr uint32_t kFramesOfWall = 12;
 
 // A second along a wall; the last frames are dark.
-void writeWall(const std::string &folder) {
+void writeWall(const std::string &folder, int64_t depth_lag_ns = 0) {
   MadeUpWall wall(1);
   const sphc_rig rig = wallRig();
   sphc_recording_writer *writer = nullptr;
   ASSERT_EQ(sphc_recording_create(folder.c_str(), &rig, &writer, nullptr), SPHC_OK);
   for (uint32_t i = 0; i < kFramesOfWall; ++i) {
     const bool is_dark = i + 4 > kFramesOfWall;
-    const sphc_localizer_frame frame =
+    sphc_localizer_frame frame =
         wall.view(20 * static_cast<int>(i), 100000000 * int64_t{i + 1}, is_dark ? 0.04 : 1);
+    frame.depth_time_ns += depth_lag_ns;
     ASSERT_EQ(sphc_recording_add_frame(writer, &frame, nullptr), SPHC_OK);
   }
   ASSERT_EQ(sphc_recording_close(&writer, nullptr), SPHC_OK);
@@ -72,6 +73,7 @@ TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
   EXPECT_THAT(lines[kFramesOfWall - 1]["advice"].get<std::string>(), HasSubstr("too dark"));
   const nlohmann::json &result = lines.back();
   EXPECT_EQ(result["color"], kFramesOfWall);
+  EXPECT_EQ(result["pairs"], kFramesOfWall);
   EXPECT_EQ(result["dropped"], 0);
   EXPECT_EQ(result["guide"]["frames"], kFramesOfWall);
   EXPECT_EQ(result["guide"]["skipped"], 0);
@@ -88,6 +90,19 @@ TEST_F(GuideTest, ARecordingWithoutDepthSaysWhatIsMissing) {
   EXPECT_THAT(answer.err, HasSubstr("depth/000009.png"));
   EXPECT_THAT(answer.err, testing::Not(HasSubstr("depth/000010.png")));
   EXPECT_THAT(answer.err, HasSubstr("2 more captures had such troubles"));
+}
+
+TEST_F(GuideTest, ARecordingWithoutPairsIsNoSuccess) {
+  writeWall(at("late"), 50000000);  // half a frame
+  const Answer answer =
+      runCommand("record --guide --json --device replay:" + at("late") + " --out " + at("late.mcap"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("Not one colour image met a depth image within 20 ms (--tolerance-ms)"));
+  const nlohmann::json result = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(result["color"], kFramesOfWall);
+  EXPECT_EQ(result["depth"], kFramesOfWall);
+  EXPECT_EQ(result["pairs"], 0);
+  EXPECT_TRUE(std::filesystem::exists(at("late.mcap")));
 }
 
 TEST_F(GuideTest, PeopleGetATableAtTheEnd) {
