@@ -166,9 +166,22 @@ std::string scientific(double value) {
 }
 
 Row differenceRow(const std::string &name, const PixelDifference &d) {
-  std::string note = "rms " + scientific(d.rms_px) + " of " + std::to_string(d.samples);
+  std::string note =
+      d.samples > 0 ? "rms " + scientific(d.rms_px) + " of " + std::to_string(d.samples) : "nothing was compared";
   if (d.lost > 0) note += "; " + std::to_string(d.lost) + " more points have lost their pixel";
-  return {name, scientific(d.largest_px), note};
+  return {name, d.samples > 0 ? scientific(d.largest_px) : "-", note};
+}
+
+// Null where nothing was compared.
+nlohmann::ordered_json differenceJson(const std::string &name, const PixelDifference &d) {
+  const auto compared = [&](double px) {
+    return d.samples > 0 ? nlohmann::ordered_json(px) : nlohmann::ordered_json();
+  };
+  return {{"what", name},
+          {"largest_px", compared(d.largest_px)},
+          {"rms_px", compared(d.rms_px)},
+          {"samples", d.samples},
+          {"lost", d.lost}};
 }
 
 std::vector<std::pair<std::string, PixelDifference>> parts(const CalibrationDifference &difference) {
@@ -192,11 +205,7 @@ nlohmann::ordered_json convert(const CalibrationOptions &options, Format format,
                                  {"round_trip", nlohmann::ordered_json::array()}};
   for (const auto &[name, part] : parts(difference)) {
     rows.push_back(differenceRow(name, part));
-    json["round_trip"].push_back({{"what", name},
-                                  {"largest_px", part.largest_px},
-                                  {"rms_px", part.rms_px},
-                                  {"samples", part.samples},
-                                  {"lost", part.lost}});
+    json["round_trip"].push_back(differenceJson(name, part));
   }
   console.say("Wrote " + options.out + " (" + nameOf(format).name + (exact ? "" : ", the nearest it holds") +
               ") and read it again; largest difference in pixels:");

@@ -11,6 +11,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
 #include "host/cli/common/trust_options.h"
+#include "host/cli/field_warnings.h"
 #include "host/cli/live_pose.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
@@ -160,7 +161,9 @@ int run(const LiveOptions &options, const Console &console) {
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   sphc_localizer_config config = options.config;
-  setCameras(calibrationOf(options.rig, rig), &config);
+  const sphc_rig calibration = calibrationOf(options.rig, rig);
+  warnOfField(calibration, console);
+  setCameras(calibration, &config);
   spherecloud::Localizer localizer = makeLocalizer(config, maps);
   LiveTally tally;
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });

@@ -17,6 +17,7 @@
 #include "host/cli/common/point_source.h"
 #include "host/cli/common/recording_out.h"
 #include "host/cli/common/rig_options.h"
+#include "host/cli/field_warnings.h"
 #include "host/cli/record_guide.h"
 #include "host/live/interrupt.h"
 #include "host/live/rate.h"
@@ -182,6 +183,7 @@ int run(const RecordOptions &options, const Console &console) {
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   noteWhatStays(rig, console);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
+  warnOfField(calibration, console);
   const auto guide =
       options.guide ? std::make_unique<RecordGuide>(calibration, options.guided, rig.waits(), console) : nullptr;
   if (guide) std::signal(SIGPIPE, SIG_IGN);  // a recording outlives the program that reads the advice

@@ -599,6 +599,25 @@ TEST(Calibration, PixelsWithoutARayAreNamed) {
   EXPECT_GT(json["depth_camera"]["without_ray_percent"], 50);
 }
 
+// A baseline of 8 mm taken for metres: depth falls nowhere, and a round trip of nothing is none.
+TEST(Calibration, DepthThatFallsOnNoColourIsNamed) {
+  const test::TempFolder folder;
+  std::string chain = kChain;
+  chain.replace(chain.find("0, 0.02]"), 8, "0, 8.00]");
+  std::ofstream(folder / "millimetres.yaml") << chain;
+  const std::string command = "calibration " + (folder / "millimetres.yaml");
+  const Answer shown = runCommand(command);
+  EXPECT_EQ(shown.exit_code, kExitDone);
+  EXPECT_THAT(shown.err, AllOf(HasSubstr("no pixel of depth falls on the colour image"), HasSubstr("in metres")));
+  const Answer made = runCommand(command + " --json --out " + (folder / "calibration.json"));
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  const auto round_trip = nlohmann::json::parse(made.out)["written"]["round_trip"];
+  EXPECT_LT(round_trip[0]["largest_px"], 1e-6);
+  EXPECT_EQ(round_trip[2]["samples"], 0);
+  EXPECT_TRUE(round_trip[2]["largest_px"].is_null());
+  EXPECT_THAT(runCommand(command + " --out " + (folder / "again.json")).out, HasSubstr("nothing was compared"));
+}
+
 TEST(Calibration, ApproximatesOnlyWhenTold) {
   const test::TempFolder folder;
   std::ofstream(folder / "chain.yaml") << kChain;
