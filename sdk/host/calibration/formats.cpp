@@ -27,12 +27,10 @@ CalibrationPart readOwn(const TextFile &file) {
 }  // namespace
 
 const std::vector<FormatName> &formatNames() {
-  static const std::vector<FormatName> kNames = {{Format::kSpherecloud, "spherecloud", false},
-                                                 {Format::kOpencv, "opencv", false},
-                                                 {Format::kKalibr, "kalibr", false},
-                                                 {Format::kRos, "ros", true},
-                                                 {Format::kColmap, "colmap", true},
-                                                 {Format::kAzureKinect, "azure-kinect", false}};
+  static const std::vector<FormatName> kNames = {
+      {Format::kSpherecloud, "spherecloud", false, true}, {Format::kOpencv, "opencv", false, false},
+      {Format::kKalibr, "kalibr", false, false},          {Format::kRos, "ros", true, false},
+      {Format::kColmap, "colmap", true, false},           {Format::kAzureKinect, "azure-kinect", false, false}};
   return kNames;
 }
 

@@ -15,6 +15,7 @@ struct FormatName {
   Format format;
   const char *name;
   bool is_folder;  // several files
+  bool has_depth_unit;
 };
 const std::vector<FormatName> &formatNames();
 const FormatName &nameOf(Format format);

@@ -10,6 +10,7 @@
 #include "host/calibration/convert.h"
 #include "host/calibration/nearest_camera.h"
 #include "host/cameras/camera_models.h"
+#include "host/cameras/number_text.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -23,6 +24,7 @@ namespace sphc::host {
 namespace {
 
 constexpr double kExactPx = 1e-6;
+constexpr double kUsualDepthUnitM = 0.001;  // of a file that has none
 
 struct CalibrationOptions {
   std::vector<std::string> files;
@@ -210,6 +212,9 @@ nlohmann::ordered_json convert(const CalibrationOptions &options, Format format,
   console.say("Wrote " + options.out + " (" + nameOf(format).name + (exact ? "" : ", the nearest it holds") +
               ") and read it again; largest difference in pixels:");
   console.say(tableText(rows));
+  if (!nameOf(format).has_depth_unit && calibration.depth_unit_m != kUsualDepthUnitM)
+    console.warn("note: " + std::string(nameOf(format).name) + " has no depth unit; give --depth-unit " +
+                 numberText(calibration.depth_unit_m) + " where " + options.out + " is read");
   if (exact && (difference.largestPx() > kExactPx || difference.lost() > 0))
     throw std::runtime_error(options.out + ": reads back differently, by " + scientific(difference.largestPx()) +
                              "; do not use it");

@@ -618,6 +618,17 @@ TEST(Calibration, DepthThatFallsOnNoColourIsNamed) {
   EXPECT_THAT(runCommand(command + " --out " + (folder / "again.json")).out, HasSubstr("nothing was compared"));
 }
 
+TEST(Calibration, ADepthUnitThatAFormatDoesNotKeepIsSaid) {
+  const test::TempFolder folder;
+  std::ofstream(folder / "chain.yaml") << kChain;
+  const std::string command = "calibration " + (folder / "chain.yaml") + " --out ";
+  const std::string of_tenths = " --depth-unit 1.0e-04";
+  EXPECT_THAT(runCommand(command + (folder / "k.yaml") + " --to kalibr" + of_tenths).err,
+              HasSubstr("note: kalibr has no depth unit; give --depth-unit 1.0e-04 where "));
+  EXPECT_EQ(runCommand(command + (folder / "own.json") + of_tenths).err, "");
+  EXPECT_EQ(runCommand(command + (folder / "usual.yaml") + " --to kalibr").err, "");
+}
+
 TEST(Calibration, ApproximatesOnlyWhenTold) {
   const test::TempFolder folder;
   std::ofstream(folder / "chain.yaml") << kChain;
