@@ -62,6 +62,7 @@ struct RecordTally {
   uint64_t color = 0, depth = 0, raw_bytes = 0;
   Rate color_rate, depth_rate;
 
+  bool isEmpty() const { return color + depth == 0; }
   void count(const sphc_capture &capture) {
     const bool is_color = capture.stream == SPHC_STREAM_COLOR;
     ++(is_color ? color : depth);
@@ -188,7 +189,7 @@ int run(const RecordOptions &options, const Console &console) {
       options.guide ? std::make_unique<RecordGuide>(calibration, options.guided, rig.waits(), console) : nullptr;
   if (guide) std::signal(SIGPIPE, SIG_IGN);  // a recording outlives the program that reads the advice
   const Interrupt interrupt;                 // from before there is a file
-  NewRecording recording(options.out, NewRecording::IfCut::kKeep);
+  NewRecording recording(options.out, NewRecording::IfCut::kRemove);
   Recorder recorder = openRecorder(recording.part(), options, calibration);
   RecordTally tally;
   sphc_recorder_statistics statistics = {};
@@ -198,11 +199,12 @@ int run(const RecordOptions &options, const Console &console) {
     sphc_recorder *ended = recorder.release();
     orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
     recording.finish();
-  } catch (const std::bad_alloc &) {
-    throw std::runtime_error("there was not enough memory; what was recorded until then is in " + recording.part());
   } catch (const std::exception &error) {
-    throw std::runtime_error(std::string(error.what()) + "; what was recorded until then is in " +
-                             recording.part());
+    if (tally.isEmpty()) throw;  // a file without images would be in the way of the next try
+    recording.keepIfCut();
+    const bool is_memory = dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
+    throw std::runtime_error((is_memory ? "there was not enough memory" : std::string(error.what())) +
+                             "; what was recorded until then is in " + recording.part());
   }
   rig.endPairs();
   sayResult(options, tally, statistics, rig, guide.get(), console);

@@ -18,6 +18,8 @@ class NewRecording {
   static std::string partOf(const std::string &path);
   // Where it is to be written.
   const std::string &part() const { return part_; }
+  // There is something in it that is worth keeping.
+  void keepIfCut() { if_cut_ = IfCut::kKeep; }
   // Once what writes it is closed.  Throws std::runtime_error with cause and cure.
   void finish();
 

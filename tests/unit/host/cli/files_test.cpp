@@ -12,6 +12,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "host/recording/calibration_json.h"
 #include "host/recording/recording_writer.h"
 #include "tests/support/session.h"
 #include "tests/support/temp_folder.h"
@@ -372,6 +373,18 @@ TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
     runCommand("convert " + at("bad") + " " + at(to));
     EXPECT_FALSE(fs::exists(at(to + std::string(".part")))) << to;
   }
+}
+
+// What holds no image is of no use, and would be in the way of the next try.
+TEST_F(FilesTest, ARecordingThatFailsAtItsFirstImageLeavesNothing) {
+  sphc_rig rig = recording::readCalibration(at("walk/calibration.json"));
+  rig.color_camera.width = rig.depth_camera.width = 1280;
+  recording::writeCalibration(at("wider.json"), rig);
+  const Answer answer =
+      runCommand("record --device simulated: -c " + at("wider.json") + " --out " + at("wider.mcap"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("choose that mode"), Not(HasSubstr("until then"))));
+  EXPECT_FALSE(fs::exists(at("wider.mcap")) || fs::exists(at("wider.mcap.part")));
 }
 
 // The signal comes once something is recorded; how long that takes does not matter.

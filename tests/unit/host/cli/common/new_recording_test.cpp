@@ -40,6 +40,11 @@ TEST(NewRecording, WhatWasCutGoesOrStays) {
     std::ofstream(walk.part() + "/rgb.txt") << "half";
   }
   EXPECT_TRUE(fs::exists(folder / "walk.part/rgb.txt"));
+  {
+    NewRecording walk(folder / "walk", NewRecording::IfCut::kRemove);
+    walk.keepIfCut();
+  }
+  EXPECT_TRUE(fs::exists(folder / "walk.part/rgb.txt"));
   { const NewRecording walk(folder / "walk", NewRecording::IfCut::kRemove); }
   EXPECT_FALSE(fs::exists(folder / "walk.part"));
 }
