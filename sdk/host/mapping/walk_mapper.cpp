@@ -145,10 +145,12 @@ class WalkMapper {
     const FramePoses &poses = adjusted_.world_from_camera;
     const auto first = std::find_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); });
     if (first == poses.end())
-      throw std::runtime_error(
-          "the links between the frames of the walk contradict each other; walk once more, slowly, where things do "
-          "not "
-          "look all alike");
+      throw NothingAgrees(
+          "the links between the frames of the walk contradict each other: is the calibration (focal lengths, "
+          "sizes) "
+          "that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do not look "
+          "all "
+          "alike");
     mapped_.told = beliefs_.toldCount();
     beliefs_.dropDisproved(poses);
     mapped_.told_wrong = beliefs_.contradictedBy(poses);

@@ -46,7 +46,8 @@ class NothingAgrees : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws NothingAgrees where no two frames do, and std::runtime_error otherwise, with cause and cure.
+// Throws NothingAgrees where no two frames do, or all that do contradict each other, and std::runtime_error
+// otherwise, with cause and cure.
 MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress);
 
 }  // namespace sphc::host

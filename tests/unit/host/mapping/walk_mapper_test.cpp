@@ -279,5 +279,24 @@ TEST(WalkMapperTest, FramesOfWhichNoTwoAgreeAreRefused) {
               testing::HasSubstr("no two frames of the walk agree"));
 }
 
+// Focal lengths that are too long, and depths of another scale in one of three frames.
+TEST(WalkMapperTest, WhereAllLinksContradictTheCalibrationIsNamedToo) {
+  MadeUpWalk made = makeWalk({3, 0.3, 1});
+  for (WalkFrame &frame : made.walk.keyframes)
+    for (SeenPoint &point : frame.points) {
+      point.ray *= 0.7;
+      point.bearing = Vector3(point.ray.x(), point.ray.y(), 1).normalized();
+    }
+  for (SeenPoint &point : made.walk.keyframes[1].points) point.depth_m *= 1.3;
+  try {
+    mapWalk(made.walk, {}, {});
+    FAIL() << "the walk was mapped";
+  } catch (const NothingAgrees &error) {  // which lets `map` say what was measured
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("contradict each other"), testing::HasSubstr("focal lengths"),
+                               testing::HasSubstr("spherecloud doctor")));
+  }
+}
+
 }  // namespace
 }  // namespace sphc::host
