@@ -38,6 +38,10 @@ struct LiveOptions {
 const char kNotLocalized[] =
     "Not one frame was localized. Is this the place that the map shows? `spherecloud doctor` says whether cameras "
     "and calibration are right.";
+const char kNoDepth[] =
+    "Not one frame had depth in range where the image shows something: does depth fall on the colour image by "
+    "color_from_depth of the calibration (metres, from depth to colour, x right, y down, z forward)? `spherecloud "
+    "doctor` compares them.";
 const char kNoPair[] = "Not one pair of images came. `spherecloud doctor` says what the cameras do.";
 
 struct LiveTally {
@@ -47,6 +51,17 @@ struct LiveTally {
   std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
   std::array<uint32_t, kHintWords.size()> hints = {};    // the same
 };
+
+bool hadNoDepthAtAll(const LiveTally &tally) {
+  for (size_t i = 0; i < kHintWords.size(); ++i)
+    if (kHintWords[i].bit == SPHC_HINT_NO_DEPTH_IN_RANGE) return tally.hints[i] == tally.frames;
+  return false;
+}
+
+const char *whyNotLocalized(const LiveTally &tally) {
+  if (tally.frames == 0) return kNoPair;
+  return hadNoDepthAtAll(tally) ? kNoDepth : kNotLocalized;
+}
 
 std::string statusText(const LiveTally &tally, const sphc_localizer_result &result,
                        const std::vector<std::string> &maps, const Rig &rig, double ms) {
@@ -191,7 +206,7 @@ int run(const LiveOptions &options, const Console &console) {
   line.wipe();
   sayTally(tally, rig, console);
   if (tally.localized > 0) return kExitDone;
-  console.warn(tally.frames > 0 ? kNotLocalized : kNoPair);
+  console.warn(whyNotLocalized(tally));
   return kExitNotLocalized;
 }
 

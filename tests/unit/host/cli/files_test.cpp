@@ -511,6 +511,19 @@ TEST_F(FilesTest, LiveDoesNotFillTheTerminalWithUnreadableCaptures) {
                                 HasSubstr("2 more captures had such troubles")));
 }
 
+// A baseline of another unit: not a pixel of depth falls on colour.
+TEST_F(FilesTest, LiveNamesTheCalibrationWhereNoFrameHasDepth) {
+  sphc_rig rig = recording::readCalibration(at("walk/calibration.json"));
+  rig.color_from_depth.t_m[0] = 8;
+  recording::writeCalibration(at("far.json"), rig);
+  const std::string of_walk = " -c " + at("far.json") + " --device replay:" + at("walk");
+  const Answer answer = runCommand("live --every --map " + at("room.sphc") + of_walk);
+  EXPECT_EQ(answer.exit_code, kExitNotLocalized);
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("no pixel of depth falls on the colour image"),
+                    HasSubstr("Not one frame had depth in range"), Not(HasSubstr("Is this the place"))));
+}
+
 // A pipe that nobody writes to, and a device that never ends.
 TEST_F(FilesTest, WhatIsNoFileIsNotWaitedFor) {
   const std::string map = at("room.sphc"), key = at("pipe.key"), localize = "localize -r " + at("walk") + " -m ";
