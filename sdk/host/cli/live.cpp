@@ -17,6 +17,7 @@
 #include "host/evaluate/map_file.h"
 #include "host/live/interrupt.h"
 #include "host/live/pair_frame.h"
+#include "host/live/pair_silence.h"
 #include "host/live/rate.h"
 #include "host/live/status_line.h"
 #include "host/report/fault_words.h"
@@ -140,7 +141,6 @@ bool isOver(const LiveOptions &options, const LiveTally &tally, std::chrono::ste
 }
 
 void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
-  const sphc_pairer_counts counts = rig.counts();
   console.say("Frames processed: " + std::to_string(tally.frames) +
               ", localized: " + std::to_string(tally.localized) +
               (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
@@ -153,10 +153,7 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
       console.say("No pose in " + counted(tally.hints[i], "frame") + ", " + kHintWords[i].name + ": " +
                   kHintWords[i].cure);
   if (tally.frames > 0) console.say("Time a frame: " + fixed(tally.total_ms / tally.frames, 2) + " ms, mean");
-  console.say(
-      "Without a partner: " + std::to_string(counts.too_far + counts.overtaken + counts.full + counts.ended) +
-      "; never came: " + std::to_string(counts.color_lost) + " colour, " + std::to_string(counts.depth_lost) +
-      " depth");
+  console.say(unpairedText(rig.counts()));
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) console.warn(troubles);
 }
@@ -166,10 +163,11 @@ int run(const LiveOptions &options, const Console &console) {
   const std::vector<MapFile> maps = openMapFiles(options.maps, trustOf(options.trust));
   StatusLine line;
   FewWarnings unreadable(console, "", "capture", " had such troubles");
-  Rig rig(options.rig, [&](const std::string &trouble) {
+  const auto warn = [&](const std::string &trouble) {
     line.wipe();
     console.warn(trouble);
-  });
+  };
+  Rig rig(options.rig, warn);
   rig.hearUnreadable([&](const std::string &why) {
     line.wipe();
     unreadable.add(why);
@@ -184,11 +182,13 @@ int run(const LiveOptions &options, const Console &console) {
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });
   const bool every = options.every || rig.waits();
   const Interrupt interrupt;
+  PairSilence silence;
   const auto begin = std::chrono::steady_clock::now();
   while (!interrupt.came() && !isOver(options, tally, begin)) {
     CapturePair pair;
     const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
+    if (const std::string told = silence.hear(got, rig); !told.empty()) warn(told);
     if (got == Rig::Got::kNothing) {
       line.show("no pair of images; " + rig.troubles());
       continue;
