@@ -110,7 +110,7 @@ static void localize(sphc_localizer *localizer, const sphc_capture *color, const
     printf("%u at %.3f %.3f %.3f, confidence %.2f\n", (unsigned)frame.sequence, pose.t_m[0], pose.t_m[1],
            pose.t_m[2], result.confidence);
   else
-    printf("%u not localized, outcome %d\n", (unsigned)frame.sequence, (int)result.outcome);
+    printf("%u not localized: %s\n", (unsigned)frame.sequence, sphc_localizer_outcome_name(result.outcome));
 }
 
 int main(int argc, char **argv) {
@@ -118,6 +118,7 @@ int main(int argc, char **argv) {
   const long frames = argc > 5 ? strtol(argv[5], &after, 10) : -1;
   if (argc < 5 || argc > 6 || (argc == 6 && (*after || frames < 1)))
     return fprintf(stderr, "usage: %s COLOR DEPTH CALIBRATION MAP [FRAMES]\n", argv[0]), 2;
+  check(sphc_abi() == SPHC_ABI ? SPHC_OK : SPHC_E_UNSUPPORTED, "the library has another ABI than the header");
   sphc_rig rig;
   check(sphc_calibration_read(argv[3], &rig, &message), argv[3]);
   sphc_map *map = open_map(argv[4]);

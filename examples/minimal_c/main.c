@@ -61,6 +61,7 @@ static sphc_localizer *make_localizer(const sphc_map *map, const sphc_replay *re
 
 int main(int argc, char **argv) {
   if (argc != 3) return fprintf(stderr, "usage: %s MAP.sphc RECORDING\n", argv[0]), 2;
+  check(sphc_abi() == SPHC_ABI ? SPHC_OK : SPHC_E_UNSUPPORTED, "the library has another ABI than the header");
   sphc_replay *replay = NULL;
   check(sphc_replay_open(argv[2], NULL, NULL, &replay, &message), argv[2]);
   sphc_map *map = open_map(argv[1]);
@@ -78,7 +79,7 @@ int main(int argc, char **argv) {
       printf("%u at %.3f %.3f %.3f, q_wxyz %.4f %.4f %.4f %.4f\n", (unsigned)frame.sequence, t[0], t[1], t[2], q[0],
              q[1], q[2], q[3]);
     } else {
-      printf("%u not localized, outcome %d\n", (unsigned)frame.sequence, (int)result.outcome);
+      printf("%u not localized: %s\n", (unsigned)frame.sequence, sphc_localizer_outcome_name(result.outcome));
     }
   }
   sphc_localizer_fini(&localizer);

@@ -41,6 +41,7 @@ sphc_localizer_config configFor(const sphc_replay *replay) {
 }
 
 void localizeAll(const char *map_path, const char *folder) {
+  spherecloud::checkAbi().orThrow();
   const Replay replay = openReplay(folder);
   spherecloud::AlignedBuffer file;
   const spherecloud::Map map = openMap(map_path, &file);
@@ -57,7 +58,7 @@ void localizeAll(const char *map_path, const char *folder) {
       std::printf("%u at %.3f %.3f %.3f, q_wxyz %.4f %.4f %.4f %.4f\n", frame.sequence, pose.t_m[0], pose.t_m[1],
                   pose.t_m[2], pose.q_wxyz[0], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3]);
     } else {
-      std::printf("%u not localized, outcome %d\n", frame.sequence, result.outcome);
+      std::printf("%u not localized: %s\n", frame.sequence, sphc_localizer_outcome_name(result.outcome));
     }
   }
 }

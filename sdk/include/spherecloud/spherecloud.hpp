@@ -1,17 +1,18 @@
 // spherecloud.hpp - the C++17 face of spherecloud.h: objects that own their memory and end themselves. Header-only.
 //
+//     spherecloud::checkAbi().orThrow();
 //     spherecloud::AlignedBuffer file;                   // or any 8-byte aligned bytes: mmap, flash, ...
-//     spherecloud::readFile("room.sphc", &file);
+//     spherecloud::readFile("room.sphc", &file).orThrow();
 //     spherecloud::Map map;
-//     spherecloud::Map::open(file.data(), file.size(), &map);
+//     spherecloud::Map::open(file.data(), file.size(), &map).orThrow();
 //     sphc_localizer_config config = spherecloud::defaultConfig(); // then set config.rig
 //     spherecloud::Localizer localizer;
-//     spherecloud::Localizer::make(config, map, &localizer);
+//     spherecloud::Localizer::make(config, map, &localizer).orThrow();
 //     sphc_localizer_result result = spherecloud::emptyResult();
 //     spherecloud::Status status = localizer.process(frame, &result);   // never allocates
 //
-// Every step returns a Status; nothing here throws.  With exceptions switched on, status.orThrow() turns a failure
-// into spherecloud::Error, so that either habit reads well:
+// Every step returns a Status, which is not to be dropped.  Nothing throws but status.orThrow(), with exceptions
+// switched on: a failure as spherecloud::Error.  Either habit reads well:
 //
 //     if (auto status = Map::open(...); !status.ok()) return report(status.text());
 //     Map::open(...).orThrow();
