@@ -19,11 +19,12 @@ namespace sphc::host {
 // What is wanted of a device.
 struct Wish {
   bool color = true, depth = true;
-  bool color_images = false;                    // colours, not grey: to record
-  uint32_t width = 640, height = 480, fps = 0;  // fps 0: whatever the camera does
-  std::string calibration;                      // of a recording that has none beside it
-  bool at_once = false;                         // a recording as fast as it can be read, not as it was recorded
-  double tolerance_ms = 20;                     // colour and depth of a recording's frame are at most so far apart
+  bool color_images = false;       // colours, not grey: to record
+  uint32_t width = 0, height = 0;  // 0: a rig asks for those of the calibration, else 640 x 480
+  uint32_t fps = 0;                // 0: whatever the camera does
+  std::string calibration;         // of a recording that has none beside it
+  bool at_once = false;            // a recording as fast as it can be read, not as it was recorded
+  double tolerance_ms = 20;        // colour and depth of a recording's frame are at most so far apart
 };
 
 // Captures that may be out on loan at once: those that wait in a pairer, and those in use.

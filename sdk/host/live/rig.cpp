@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/base/checked_call.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {
@@ -27,6 +28,20 @@ int64_t nowNs(clockid_t clock) {
 uint32_t jointSigmaUs(uint32_t time_sigma_us, int64_t mapping_sigma_ns) {
   const double sigma_us = std::round(std::hypot(time_sigma_us, static_cast<double>(mapping_sigma_ns) / 1000));
   return static_cast<uint32_t>(std::min<double>(sigma_us, UINT32_MAX));
+}
+
+// Of a camera of one stream, where none was said: colour and depth may have two sizes.
+void chooseSize(Wish *wish) {
+  if (wish->width && wish->height) return;
+  uint32_t width = 640, height = 480;
+  if (!wish->calibration.empty()) {
+    const sphc_rig calibration = recording::readCalibration(wish->calibration);
+    const sphc_camera &camera = wish->depth ? calibration.depth_camera : calibration.color_camera;
+    width = camera.width;
+    height = camera.height;
+  }
+  if (!wish->width) wish->width = width;
+  if (!wish->height) wish->height = height;
 }
 
 }  // namespace
@@ -58,6 +73,7 @@ void Rig::add(const std::string &spec, bool color, bool depth) {
   camera.wish.color = color;
   camera.wish.depth = depth;
   camera.wish.tolerance_ms = options_.tolerance_ms;
+  if (!(color && depth)) chooseSize(&camera.wish);
   sphc_memory need = {};
   sphc_clock_mapper_memory(&need);
   camera.mapper_memory.resize(need.state_bytes / sizeof(uint64_t) + 1);

@@ -19,11 +19,12 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
   add("--depth", options->depth, "and a depth camera: v4l2:/dev/video2")->type_name("CAMERA");
   add("-c,--calibration", options->wish.calibration, "Calibration file; `spherecloud calibration` makes one")
       ->type_name("FILE");
+  const char *size = "as the calibration has it, else 640 x 480";
   add("--width", options->wish.width, "Size of V4L2 and libcamera images, of colour and depth alike, pixels")
-      ->capture_default_str()
+      ->default_str(size)
       ->transform(wholeFrom(0, UINT32_MAX));
-  add("--height", options->wish.height, "The same")->capture_default_str()->transform(wholeFrom(0, UINT32_MAX));
-  add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")
+  add("--height", options->wish.height, "The same")->default_str(size)->transform(wholeFrom(0, UINT32_MAX));
+  add("--fps", options->wish.fps, "Of the same cameras, images a second; 0: whatever the camera does")
       ->capture_default_str()
       ->transform(wholeFrom(0, UINT32_MAX));
   add("--tolerance-ms", options->tolerance_ms, "Colour and depth are a pair when taken at most so far apart")

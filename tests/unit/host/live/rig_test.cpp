@@ -235,6 +235,31 @@ TEST_F(RigTest, TwoCamerasAreAsUnsureAsTheirTimesAndTheMappingTogether) {
   EXPECT_EQ(captures, 2 * kRecordedFrames);
 }
 
+// Colour and depth of two sizes need no options.
+TEST_F(RigTest, EachCameraIsAskedForTheSizeOfItsCalibration) {
+  options_.wish.calibration = folder_ / "walk/calibration.json";
+  options_.color = "color";
+  options_.depth = "depth";
+  options_.both.clear();
+  std::vector<uint32_t> sizes;
+  options_.open = [&](const std::string &, const Wish &wish) {
+    sizes.insert(sizes.end(), {wish.width, wish.height});
+    return std::make_unique<LostDevice>();
+  };
+  open();
+  EXPECT_EQ(sizes, (std::vector<uint32_t>{contract::kColorWidth, contract::kColorHeight, contract::kDepthWidth,
+                                          contract::kDepthHeight}));
+  sizes.clear();
+  options_.wish.width = 1280;
+  options_.wish.height = 960;
+  open();
+  EXPECT_EQ(sizes, (std::vector<uint32_t>{1280, 960, 1280, 960})) << "as was said";
+  sizes.clear();
+  options_.wish = {};
+  open();
+  EXPECT_EQ(sizes, (std::vector<uint32_t>{640, 480, 640, 480})) << "nobody knows";
+}
+
 TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
   const Wish both, color = [] {
     Wish wish;
