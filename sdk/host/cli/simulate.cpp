@@ -184,6 +184,16 @@ void tellNext(const std::string &out, const sphc_simulated_config &config, const
               std::to_string(second_lap) + " on, can then be localized in it.");
 }
 
+// Before the rendering, which may take minutes.
+void noteWhatIsWithoutEffect(const SimulateOptions &options, const RecordingOut &out, const Console &console) {
+  if (options.raw_depth && !isMcap(options.out))
+    console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
+  if (options.accelerometer_hz > 0 && !out.keepsAccelerations())
+    console.warn("note: a folder keeps no accelerations; --out X.mcap does");
+  if (options.no_blur && options.exposure->count() > 0)
+    console.warn("note: --exposure: with --no-blur nothing blurs, so it changes nothing");
+}
+
 int simulate(const SimulateOptions &options, const Console &console) {
   if (isRaw(options.out))
     throw UsageError("--out is a folder or a .mcap file; `spherecloud convert` makes a .raw file of either");
@@ -195,17 +205,12 @@ int simulate(const SimulateOptions &options, const Console &console) {
   const Simulated simulated = madeOfOptions([&] { return openHeadset(config); });
   const Interrupt interrupt;  // from before there is a file
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
+  noteWhatIsWithoutEffect(options, *out, console);
   record(simulated.get(), interrupt, {simulated.get(), options, out.get()});
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + counted(config.frame_count, "frame") + " to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
-  if (options.raw_depth && !isMcap(options.out))
-    console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
-  if (options.accelerometer_hz > 0 && !out->keepsAccelerations())
-    console.warn("note: a folder keeps no accelerations; --out X.mcap does");
-  if (options.no_blur && options.exposure->count() > 0)
-    console.warn("note: --exposure: with --no-blur nothing blurs, so it changes nothing");
   tellNext(options.out, config, console);
   console.give({{"recording", options.out},
                 {"frames", config.frame_count},

@@ -408,11 +408,12 @@ TEST_F(FilesTest, APoliteKillEndsARecordingAsCtrlCDoes) {
 
 TEST_F(FilesTest, AnInterruptedSimulationLeavesNothing) {
   const std::string out = at("interrupted");
-  const Answer answer = runProgram("sh -c", "'" SPHC_COMMAND " simulate --frames 900 --rate 30 --out " + out +
-                                                " & child=$!; while kill -0 $child && ! [ -e " + out +
-                                                ".part ]; do sleep 0.1; done; kill -TERM $child; wait $child'");
+  const Answer answer =
+      runProgram("sh -c", "'" SPHC_COMMAND " simulate --frames 900 --rate 30 --accelerometer 100 --out " + out +
+                              " & child=$!; while kill -0 $child && ! [ -e " + out +
+                              ".part ]; do sleep 0.1; done; kill -TERM $child; wait $child'");
   EXPECT_EQ(answer.exit_code, kExitFailure);
-  EXPECT_THAT(answer.err, HasSubstr("interrupted"));
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("interrupted"), HasSubstr("a folder keeps no accelerations")));
   EXPECT_FALSE(fs::exists(out) || fs::exists(out + ".part"));
 }
 
