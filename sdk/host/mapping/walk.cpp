@@ -96,10 +96,10 @@ Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, c
   walk.middle_depth_m = middleDepth(walk.keyframes);
   if (!(walk.middle_depth_m > 0))
     throw std::runtime_error(
-        "no keypoint has depth: do the images show something, are depth images and depth_unit_m of the calibration "
-        "right, does depth fall on the colour images by its color_from_depth (metres, from depth to colour, x "
-        "right, "
-        "y down, z forward; `spherecloud doctor` tells), and is the room within --depth-min and --depth-max?");
+        "no keypoint has depth: do the images show something, are depth images and depth_unit_m of the "
+        "calibration right, does depth fall on the colour images by its color_from_depth (metres, from depth to "
+        "colour, x right, y down, z forward; `spherecloud doctor` tells), and is the room within --depth-min and "
+        "--depth-max?");
   return walk;
 }
 

@@ -147,10 +147,8 @@ class WalkMapper {
     if (first == poses.end())
       throw NothingAgrees(
           "the links between the frames of the walk contradict each other: is the calibration (focal lengths, "
-          "sizes) "
-          "that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do not look "
-          "all "
-          "alike");
+          "sizes) that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do "
+          "not look all alike");
     mapped_.told = beliefs_.toldCount();
     beliefs_.dropDisproved(poses);
     mapped_.told_wrong = beliefs_.contradictedBy(poses);
