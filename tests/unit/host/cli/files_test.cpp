@@ -567,9 +567,9 @@ TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
 }
 
 TEST_F(FilesTest, OfARecordingWithoutPosesNoneIsSpokenOf) {
-  fs::copy(at("walk"), at("untold"), fs::copy_options::recursive);
-  fs::remove(at("untold/groundtruth.txt"));
-  const Answer answer = runCommand("localize --align -r " + at("untold") + " -m " + at("room.sphc") +
+  fs::copy(at("walk"), at("without_poses"), fs::copy_options::recursive);
+  fs::remove(at("without_poses/groundtruth.txt"));
+  const Answer answer = runCommand("localize --align -r " + at("without_poses") + " -m " + at("room.sphc") +
                                    " --owner-note " + at("room.sphc.owner.json"));
   EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("not known   the recording holds no poses"));
