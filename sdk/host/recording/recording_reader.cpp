@@ -13,6 +13,9 @@ namespace {
 void takePoses(const std::filesystem::path &file, Recording *recording) {
   recording->bad_pose_count = 0;
   recording->poses = readTumPoses(file, &recording->bad_pose_count);
+  if (recording->poses.poses().empty())
+    throw Failure(SPHC_E_ARGUMENT,
+                  shortPath(file.string()) + ": no pose in it; a line of each is \"seconds tx ty tz qx qy qz qw\"");
   recording->pose_fault.clear();
 }
 

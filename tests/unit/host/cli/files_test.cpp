@@ -592,6 +592,9 @@ TEST_F(FilesTest, PosesOfAFileAreTakenInPlaceOfTheRecordings) {
   const Answer missing = runCommand(build + untold + " --poses-from " + at("nothing.tum"));
   EXPECT_EQ(missing.exit_code, kExitFailure);
   EXPECT_THAT(missing.err, HasSubstr("nothing.tum"));
+  put("empty.tum", "# seconds tx ty tz qx qy qz qw\n");
+  EXPECT_THAT(runCommand(build + untold + " --poses-from " + at("empty.tum")).err,
+              HasSubstr("empty.tum: no pose in it"));
   expectKept(at("walk/groundtruth.txt"),
              "localize -m " + at("room.sphc") + untold + poses + " --trajectory " + at("walk/groundtruth.txt"),
              kExitUsage, "--poses-from reads");
