@@ -42,6 +42,14 @@ def nanoseconds(value: typing.SupportsIndex, name: str) -> int:
     return whole(value, name, 64, signed=True)
 
 
+def real(value: float, name: str) -> float:
+    """The number; TypeError for what is none, also for the text of one."""
+    try:
+        return ctypes.c_double(value).value
+    except TypeError:
+        raise TypeError(f"{name} is a number, not {type(value).__name__}") from None
+
+
 def configure(config: typing.Any, given: typing.Mapping[str, typing.Any]) -> None:
     """Sets what is not None.  ValueError where a field cannot hold its integer, TypeError where it holds no such thing."""
     for name, value in given.items():

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import _interface
 from ._answers import OBSERVATION
-from ._calls import Owned, aligned, check, closed, configure, nanoseconds, of_type, whole
+from ._calls import Owned, aligned, check, closed, configure, nanoseconds, of_type, real, whole
 from ._library import interface
 from .cameras import Rig
 from .enums import Band, Format, LogLevel, Mode, Parameter, Status
@@ -225,9 +225,9 @@ class Localizer:
         """Where a map lies in a frame that several maps share, with its errors, 1 sigma an axis.  None: not known."""
         raw = of_type(common_from_map, Rigid, "common_from_map").raw() if common_from_map is not None else None
         number = whole(map_id, "map_id")
+        sigmas = real(rotation_sigma_rad, "rotation_sigma_rad"), real(translation_sigma_m, "translation_sigma_m")
         with self._locating:
-            self._check(self._c.sphc_localizer_set_map_transform(self._alive().pointer, number, raw, rotation_sigma_rad,
-                                                                 translation_sigma_m))
+            self._check(self._c.sphc_localizer_set_map_transform(self._alive().pointer, number, raw, *sigmas))
 
     @property
     def map_count(self) -> int:
@@ -316,9 +316,9 @@ class Localizer:
 
     def set_parameter(self, parameter: Parameter, value: float) -> None:
         """From the next frame on.  Errors: E_ARGUMENT, out of parameter_range; E_UNSUPPORTED."""
-        number = whole(parameter, "parameter", signed=True)
+        number, wanted = whole(parameter, "parameter", signed=True), real(value, "value")
         with self._locating:
-            self._check(self._c.sphc_localizer_set_parameter(self._alive().pointer, number, value))
+            self._check(self._c.sphc_localizer_set_parameter(self._alive().pointer, number, wanted))
 
     def get_parameter(self, parameter: Parameter) -> float:
         """Error(E_UNSUPPORTED): the library does not know the parameter."""

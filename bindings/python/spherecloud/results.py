@@ -7,7 +7,7 @@ import typing
 from . import _interface
 from ._answer import DepthBias
 from ._answers import HypothesisFields, ParameterRangeFields, PredictionFields, ResultFields
-from ._calls import whole
+from ._calls import real, whole
 from ._library import interface
 from .enums import Outcome, Parameter, Status
 from .errors import Error
@@ -40,7 +40,8 @@ class Result(ResultFields):
     def confidence_within(self, translation_m: float, rotation_rad: float) -> float:
         """Probability that the camera is within so many metres and radians of the pose; 0 where there is no pose.
         docs/confidence.md."""
-        made: float = interface().sphc_localizer_result_confidence(self._raw, translation_m, rotation_rad)
+        bounds = real(translation_m, "translation_m"), real(rotation_rad, "rotation_rad")
+        made: float = interface().sphc_localizer_result_confidence(self._raw, *bounds)
         return made
 
 

@@ -154,6 +154,10 @@ class Misuse(unittest.TestCase):
                      lambda: sphc.write_camera(sphc.Convention.TUM, np.eye(4)),
                      lambda: sphc.write_camera(sphc.Convention.TUM, sphc.Rigid(), np.eye(4)),
                      lambda: sphc.write_map(sphc.Convention.TUM, np.eye(4)),
+                     lambda: self.localizer.set_parameter(sphc.Parameter.PROBES, "3"),
+                     lambda: self.localizer.set_map_transform(session.MAP_ID, sphc.Rigid(), None),
+                     lambda: self.localizer.set_map_transform(session.MAP_ID, sphc.Rigid(), 0.01, "far"),
+                     lambda: self.localizer.process(self.frame).confidence_within("near", 0.1),
                      lambda: sphc.Localizer(session.RIG, cameras=1), lambda: sphc.Localizer(session.RIG, depth_cameras=1),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, deadline_us="soon"))):
             with self.assertRaisesRegex(TypeError, "not "):
