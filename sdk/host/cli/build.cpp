@@ -80,13 +80,14 @@ bool didReleaseNoted(const Place &place, const std::string &note) {
                            [&id](const Release &release) { return release.map_id == *id; });
 }
 using DidRelease = bool(const Place &place, const std::string &path);
+bool didAnyRelease(const std::vector<Place> &places, DidRelease *did_release, const std::string &path) {
+  return std::any_of(places.begin(), places.end(), [&](const Place &place) { return did_release(place, path); });
+}
 
 // By any place of the ledger, which is not made for this.
 IsOurs releasedByLedger(const BuildOptions &options, DidRelease *did_release) {
   return [ledger = ledgerPath(options), did_release](const std::string &path) {
-    if (!std::filesystem::exists(ledger)) return false;
-    const std::vector<Place> places = Ledger::openToRead(ledger).places();
-    return std::any_of(places.begin(), places.end(), [&](const Place &place) { return did_release(place, path); });
+    return std::filesystem::exists(ledger) && didAnyRelease(Ledger::openToRead(ledger).places(), did_release, path);
   };
 }
 
@@ -118,14 +119,11 @@ std::vector<Place> placesOfOthers(const BuildOptions &options) {
 void checkLedgerIsHere(const BuildOptions &options) {
   const std::string ledger = ledgerPath(options), note = notePath(options);
   if (options.understood || !notedRelease(note)) return;
-  const bool is_there = std::filesystem::exists(ledger);
-  std::vector<Place> places = placesOfOthers(options);
-  if (is_there)
-    for (Place &place : Ledger::openToRead(ledger).places()) places.push_back(std::move(place));
-  if (std::any_of(places.begin(), places.end(), [&](const Place &place) { return didReleaseNoted(place, note); }))
-    return;
-  const std::string why = is_there ? ledger + " does not know that release, being another ledger or an older one"
-                                   : "there is no " + ledger;
+  if (releasedByLedger(options, didReleaseNoted)(note)) return;
+  if (didAnyRelease(placesOfOthers(options), didReleaseNoted, note)) return;
+  const std::string why = std::filesystem::exists(ledger)
+                              ? ledger + " does not know that release, being another ledger or an older one"
+                              : "there is no " + ledger;
   throw std::runtime_error(options.map + " was released, as " + note +
                            " says, by a ledger that is not here: " + why +
                            ". A second, independent map of one place exposes the points that both have. Restore "
