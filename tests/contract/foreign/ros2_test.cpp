@@ -86,11 +86,12 @@ class Ros2 : public ::testing::Test {
                                      {"camera_link", kColorFrame, kBodyFromOptical},
                                      {"/camera_link", kDepthFrame, body_from_depth}}));
   }
-  // Forward by 10 cm every 11 ms; between the times of images.
-  void addOdometry(const char *topic = "/odom", bool is_tf = false) {
+  // Forward by a step every 11 ms; between the times of images.
+  void addOdometry(const char *topic = "/odom", bool is_tf = false, const char *parent = "odom",
+                   const char *child = "base_link", double step_m = 0.1) {
     for (int64_t j = -1; j < 9; ++j) {
       const int64_t time_ns = kStartNs + j * 11000000 + 5500000;
-      const NamedTransform pose = {"odom", "base_link", {{1, 0, 0, 0}, {0.1 * static_cast<double>(j), 0, 0}}};
+      const NamedTransform pose = {parent, child, {{1, 0, 0, 0}, {step_m * static_cast<double>(j), 0, 0}}};
       bag_.add(topic, is_tf ? kTf : kOdometry, static_cast<uint64_t>(time_ns),
                is_tf ? test::rosTransforms(time_ns, {pose}) : test::rosOdometry(time_ns, pose));
     }
@@ -198,6 +199,36 @@ TEST_F(Ros2, PosesOfTransforms) {
   const RecordingReader reader(write());
   expectWalksForward(reader);
   EXPECT_NEAR(reader.worldFromCamera(1)->t_m[1], 1, 1e-9);
+}
+
+// Wheels and a filter tell of one body, and their steps differ.
+TEST_F(Ros2, TwoTopicsOfOdometryOfOneBodyAreRefused) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/odometry/filtered");
+  addOdometry("/arm/odom", false, "odom", "arm");
+  EXPECT_TRUE(RecordingReader(write()).worldFromCamera(0)) << "of another body, which is no rival";
+  addOdometry("/wheel/odom", false, "odom", "base_link", 0.11);
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("bag.mcap: both /odometry/filtered and /wheel/odom may tell where base_link "
+                        "was; leave one out (docs/imports.md says how)"));
+}
+
+TEST_F(Ros2, SoAreTwoInDifferentWorlds) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/odom");
+  addOdometry("/truth", false, "world");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("both /odom and /truth may tell where base_link was"));
+}
+
+TEST_F(Ros2, TransformsComeBeforeOdometry) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/wheel/odom", false, "odom", "base_link", 0.11);
+  addOdometry("/other/odom", false, "world", "base_link", 0.12);
+  addOdometry("/tf", true);
+  expectWalksForward(RecordingReader(write()));
 }
 
 TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {

@@ -25,31 +25,46 @@ sphc_rigid inverted(const sphc_rigid &b_from_a) {
 
 void FrameTree::addFixed(const std::string &parent, const std::string &child, const sphc_rigid &parent_from_child) {
   Link &link = links_[child];
-  if (!link.parent.empty() || parent == child) return;
+  if (!link.parent.empty() || rootOf(parent) == child) return;
   link.parent = parent;
   link.fixed = parent_from_child;
 }
 
-void FrameTree::addMoving(const std::string &parent, const std::string &child, const TimedPose &parent_from_child) {
-  Link &link = links_[child];
-  if (link.parent.empty() && parent != child) link.parent = parent;
-  if (link.parent == parent && !link.fixed) link.moving.push_back(parent_from_child);
+void FrameTree::addMoving(const Teller &teller, const std::string &parent, const std::string &child,
+                          const TimedPose &parent_from_child) {
+  const auto [found, is_new] = claim_by_names_.try_emplace({teller.topic, parent, child}, claims_.size());
+  if (is_new) claims_.push_back({teller, parent, child, {}});
+  claims_[found->second].samples.push_back(parent_from_child);
 }
 
-void FrameTree::sort() {
-  for (auto &[child, link] : links_) {
-    std::stable_sort(link.moving.begin(), link.moving.end(),
+void FrameTree::resolve() {
+  for (Claim &claim : claims_)
+    std::stable_sort(claim.samples.begin(), claim.samples.end(),
                      [](const TimedPose &a, const TimedPose &b) { return a.time_ns < b.time_ns; });
-    link.track = {};
+  for (const bool is_odometry : {false, true})
+    for (Claim &claim : claims_)
+      if (claim.teller.is_odometry == is_odometry) hang(&claim);
+}
+
+void FrameTree::hang(Claim *claim) {
+  if (claim->parent.empty() || claim->child.empty()) return;
+  Link &link = links_[claim->child];
+  if (link.parent.empty()) {
+    if (rootOf(claim->parent) == claim->child) return;
+    link.parent = claim->parent;
+    link.teller = claim->teller;
+    link.moving = std::move(claim->samples);
     for (const TimedPose &pose : link.moving) link.track.add(pose.time_ns, pose.pose);
+  } else if (!link.fixed && link.rival.empty() && link.teller.is_odometry == claim->teller.is_odometry &&
+             link.teller.topic != claim->teller.topic) {
+    link.rival = claim->teller.topic;
   }
 }
 
 std::vector<const FrameTree::Link *> FrameTree::linksOf(std::string frame) const {
   std::vector<const Link *> links;
-  for (auto found = links_.find(frame); found != links_.end() && links.size() < links_.size();
+  for (auto found = links_.find(frame); found != links_.end() && !found->second.parent.empty();
        found = links_.find(frame)) {
-    if (found->second.parent.empty()) break;
     links.push_back(&found->second);
     frame = found->second.parent;
   }
@@ -101,6 +116,15 @@ PoseTrack FrameTree::track(const std::string &frame) const {
     last_ns = sample.time_ns;
   }
   return track;
+}
+
+std::optional<FrameTree::Rivals> FrameTree::rivals(const std::string &frame) const {
+  std::string moved = frame;
+  for (const Link *link : linksOf(frame)) {
+    if (!link->rival.empty()) return Rivals{moved, link->teller.topic, link->rival};
+    moved = link->parent;
+  }
+  return {};
 }
 
 std::string FrameTree::movedApartFrom(const std::string &frame) const {

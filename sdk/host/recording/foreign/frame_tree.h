@@ -1,6 +1,7 @@
 // The tree of coordinate frames that ROS's transforms make: which frame hangs in which, when and where.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,34 +13,58 @@ namespace sphc::recording {
 
 class FrameTree {
  public:
-  // A frame has one parent: the first that was told.
+  // Who tells where a frame moves: a topic of transforms, or one of odometry.
+  struct Teller {
+    std::string topic;
+    bool is_odometry;
+  };
+  // A frame has one parent: the first that it is told to be fixed to, or else one that it moves against.
   void addFixed(const std::string &parent, const std::string &child, const sphc_rigid &parent_from_child);
-  void addMoving(const std::string &parent, const std::string &child, const TimedPose &parent_from_child);
-  // Brings what moves into its order of time; to be called when all is added.
-  void sort();
+  void addMoving(const Teller &teller, const std::string &parent, const std::string &child,
+                 const TimedPose &parent_from_child);
+  // Of those who tell of one frame, transforms come before odometry, then the first that told.  To be called when
+  // all is added.
+  void resolve();
 
   // Between frames of one body; none where something moves between them, or nothing joins them.
   std::optional<sphc_rigid> fixed(const std::string &target, const std::string &source) const;
   // root_from_frame of the outermost frame, at every time of the transform on the way that is told most often;
   // empty where nothing on the way moves.
   PoseTrack track(const std::string &frame) const;
+  // Two topics that tell where a frame moves and are as good as each other.
+  struct Rivals {
+    std::string frame, topic, other;
+  };
+  // On the way from this frame outwards.
+  std::optional<Rivals> rivals(const std::string &frame) const;
   // Of what moves and is joined to this frame by nothing the one that is told of most often; empty where there is
   // none.
   std::string movedApartFrom(const std::string &frame) const;
 
  private:
+  // What one teller says of one frame and its parent.
+  struct Claim {
+    Teller teller;
+    std::string parent, child;
+    std::vector<TimedPose> samples;
+  };
   struct Link {
     std::string parent;
     std::optional<sphc_rigid> fixed;
-    std::vector<TimedPose> moving;
-    PoseTrack track;  // of `moving`, once sorted
+    std::vector<TimedPose> moving;  // in order of time
+    PoseTrack track;                // of `moving`
+    Teller teller;                  // of `moving`
+    std::string rival;              // a topic that is as good as the teller's
   };
-  // A frame's links outwards, up to the root; a ring ends where it begins again.
+  void hang(Claim *claim);
+  // A frame's links outwards, up to the root.  No link closes a ring.
   std::vector<const Link *> linksOf(std::string frame) const;
   std::string rootOf(const std::string &frame) const;
   std::string bodyOf(const std::string &frame, sphc_rigid &body_from_frame) const;
 
-  std::map<std::string, Link> links_;  // by the child
+  std::map<std::string, Link> links_;                            // by the child
+  std::vector<Claim> claims_;                                    // in the order in which they begin
+  std::map<std::array<std::string, 3>, size_t> claim_by_names_;  // topic, parent, child
 };
 
 }  // namespace sphc::recording

@@ -55,7 +55,7 @@ void addTransforms(const BagMessage &message, bool is_odometry, FrameTree *frame
     if (is_fixed)
       frames->addFixed(transform.header.frame, transform.child, transform.parent_from_child);
     else
-      frames->addMoving(transform.header.frame, transform.child,
+      frames->addMoving({topic, is_odometry}, transform.header.frame, transform.child,
                         {timeOfRos(transform.header, message.log_ns), transform.parent_from_child});
   }
 }
@@ -113,7 +113,7 @@ RosBag readRosBag(const std::filesystem::path &path, bool is_ros1) {
   BagFile file(path);
   const BagVisitor visit = [&bag](const BagMessage &message) { addMessage(message, &bag); };
   bag.walk = is_ros1 ? walkRos1Bag(file, visit) : walkMcapBag(file, visit);
-  bag.frames.sort();
+  bag.frames.resolve();
   return bag;
 }
 

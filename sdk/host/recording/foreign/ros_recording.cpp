@@ -116,6 +116,13 @@ std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::str
   return inOrderOfTime(std::move(chosen));
 }
 
+void requireOneTeller(const FrameTree &frames, const std::string &color_frame, const std::string &file) {
+  const std::optional<FrameTree::Rivals> rivals = frames.rivals(color_frame);
+  if (rivals)
+    throw Failure(SPHC_E_ARGUMENT, file + ": both " + rivals->topic + " and " + rivals->other + " may tell where " +
+                                       rivals->frame + " was; leave one out (docs/imports.md says how)");
+}
+
 // Why nothing tells where the camera was, though something moves; empty where nothing is to be said.
 std::string poseFaultOf(const FrameTree &frames, const std::string &color_frame) {
   const std::string moved = frames.movedApartFrom(color_frame);
@@ -128,6 +135,7 @@ Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   const std::string name = shortPath(path.string());
   const RosImageTopic &color = chooseColor(bag.content, name);
   const RosImageTopic &depth = chooseDepth(bag.content, color, name);
+  requireOneTeller(bag.frames, color.frame, name);
   Recording recording;
   recording.layout = layout;
   recording.path = path;
