@@ -231,6 +231,83 @@ TEST_F(Ros2, TransformsComeBeforeOdometry) {
   expectWalksForward(RecordingReader(write()));
 }
 
+// As a tracking camera tells that is screwed to the robot: its frame has a parent already.
+class OdometryOfAPart : public Ros2 {
+ protected:
+  // A quarter turn to the left, 20 cm in front of the body's frame.
+  void addTracker() {
+    const double half = std::sqrt(0.5);
+    bag_.add("/tf_static", kTf, kStartNs,
+             test::rosTransforms(0, {{"camera_link", "tracker", {{half, 0, 0, half}, {0.2, 0, 0}}}}));
+  }
+  // base_link itself would be told to be at 0.1 j, turned back by a quarter.
+  void addTrackerOdometry() {
+    for (int64_t j = -1; j < 9; ++j) {
+      const int64_t time_ns = kStartNs + j * 11000000 + 5500000;
+      bag_.add(
+          "/tracker/odom", kOdometry, kStartNs,
+          test::rosOdometry(time_ns, {"world", "tracker", {{1, 0, 0, 0}, {0.1 * static_cast<double>(j), 0, 0}}}));
+    }
+  }
+  void expectPoses() {
+    const RecordingReader reader(write());
+    for (uint32_t i = 0; i < 3; ++i) {
+      ASSERT_TRUE(reader.worldFromCamera(i));
+      // The camera is 10 cm behind the tracker, which looks along y of the body.
+      EXPECT_NEAR(reader.worldFromCamera(i)->t_m[0], 0.1 * (3 * i - 0.5), 1e-9);
+      EXPECT_NEAR(reader.worldFromCamera(i)->t_m[1], 0.1, 1e-9);
+    }
+  }
+};
+
+TEST_F(OdometryOfAPart, MovesTheWholeBody) {
+  addImagesAndCameras();
+  addBody();
+  addTracker();
+  addTrackerOdometry();
+  expectPoses();
+}
+
+TEST_F(OdometryOfAPart, InWhateverOrderItIsTold) {
+  addTrackerOdometry();
+  addImagesAndCameras();
+  addTracker();
+  addBody();
+  expectPoses();
+}
+
+TEST_F(OdometryOfAPart, IsARivalOfTheWheels) {
+  addImagesAndCameras();
+  addBody();
+  addTracker();
+  addTrackerOdometry();
+  addOdometry();
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("both /tracker/odom and /odom may tell where base_link was"));
+}
+
+// Of transforms those count that make a tree.
+TEST_F(OdometryOfAPart, TransformsOfTheBodyComeBeforeThoseOfAPart) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/tf", true, "world", "camera_link", 0.2);
+  addOdometry("/tf", true);
+  expectWalksForward(RecordingReader(write()));
+}
+
+TEST_F(Ros2, OdometryThatMovesNothingIsNamed) {
+  for (const auto &[parent, child] : {std::pair("odom", ""), {"", "base_link"}, {"base_link", kColorFrame}}) {
+    bag_ = {};
+    addImagesAndCameras();
+    addBody();
+    addOdometry("/odom", false, parent, child);
+    EXPECT_EQ(
+        RecordingReader(write()).recording().pose_fault,
+        std::string("it has no poses: /odom tells where \"") + child + "\" was in \"" + parent +
+            "\", and one has no name, or both are of one body; record it with two names in child_frame_id and "
+            "header.frame_id, or take spherecloud map");
+  }
+}
+
 TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {
   addImagesAndCameras();
   bag_.add("/tf", kTf, kStartNs,

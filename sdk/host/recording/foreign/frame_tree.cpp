@@ -41,22 +41,38 @@ void FrameTree::resolve() {
   for (Claim &claim : claims_)
     std::stable_sort(claim.samples.begin(), claim.samples.end(),
                      [](const TimedPose &a, const TimedPose &b) { return a.time_ns < b.time_ns; });
-  for (const bool is_odometry : {false, true})
+  for (const Rank rank : {Rank::kTransforms, Rank::kTransformsOfAPart, Rank::kOdometry})
     for (Claim &claim : claims_)
-      if (claim.teller.is_odometry == is_odometry) hang(&claim);
+      if (rankOf(claim) == rank) hang(rank, &claim);
 }
 
-void FrameTree::hang(Claim *claim) {
-  if (claim->parent.empty() || claim->child.empty()) return;
-  Link &link = links_[claim->child];
+FrameTree::Rank FrameTree::rankOf(const Claim &claim) const {
+  sphc_rigid body_from_child;
+  if (claim.teller.is_odometry) return Rank::kOdometry;
+  return bodyOf(claim.child, body_from_child) == claim.child ? Rank::kTransforms : Rank::kTransformsOfAPart;
+}
+
+// What is told of a frame is told of the body that it is fixed to.
+void FrameTree::hang(Rank rank, Claim *claim) {
+  sphc_rigid body_from_child;
+  const std::string body = bodyOf(claim->child, body_from_child);
+  if (claim->parent.empty() || claim->child.empty() ||
+      (links_[body].parent.empty() && rootOf(claim->parent) == body)) {
+    if (claim->teller.is_odometry && !useless_)
+      useless_ = Useless{claim->teller.topic, claim->parent, claim->child};
+    return;
+  }
+  Link &link = links_[body];
   if (link.parent.empty()) {
-    if (rootOf(claim->parent) == claim->child) return;
     link.parent = claim->parent;
-    link.teller = claim->teller;
+    link.rank = rank;
+    link.topic = claim->teller.topic;
     link.moving = std::move(claim->samples);
-    for (const TimedPose &pose : link.moving) link.track.add(pose.time_ns, pose.pose);
-  } else if (!link.fixed && link.rival.empty() && link.teller.is_odometry == claim->teller.is_odometry &&
-             link.teller.topic != claim->teller.topic) {
+    for (TimedPose &sample : link.moving) {
+      if (body != claim->child) sample.pose = composed(sample.pose, inverted(body_from_child));
+      link.track.add(sample.time_ns, sample.pose);
+    }
+  } else if (link.rank == rank && link.topic != claim->teller.topic && link.rival.empty()) {
     link.rival = claim->teller.topic;
   }
 }
@@ -121,7 +137,7 @@ PoseTrack FrameTree::track(const std::string &frame) const {
 std::optional<FrameTree::Rivals> FrameTree::rivals(const std::string &frame) const {
   std::string moved = frame;
   for (const Link *link : linksOf(frame)) {
-    if (!link->rival.empty()) return Rivals{moved, link->teller.topic, link->rival};
+    if (!link->rival.empty()) return Rivals{moved, link->topic, link->rival};
     moved = link->parent;
   }
   return {};

@@ -22,8 +22,8 @@ class FrameTree {
   void addFixed(const std::string &parent, const std::string &child, const sphc_rigid &parent_from_child);
   void addMoving(const Teller &teller, const std::string &parent, const std::string &child,
                  const TimedPose &parent_from_child);
-  // Of those who tell of one frame, transforms come before odometry, then the first that told.  To be called when
-  // all is added.
+  // What is told of a frame counts for all that is fixed to it.  Of those who tell of one body, transforms come
+  // before odometry, then the first that told.  To be called when all is added.
   void resolve();
 
   // Between frames of one body; none where something moves between them, or nothing joins them.
@@ -37,6 +37,11 @@ class FrameTree {
   };
   // On the way from this frame outwards.
   std::optional<Rivals> rivals(const std::string &frame) const;
+  // Odometry of a frame without a name, or that moves nothing: its frames belong to one body.
+  struct Useless {
+    std::string topic, parent, child;
+  };
+  const std::optional<Useless> &useless() const { return useless_; }
   // Of what moves and is joined to this frame by nothing the one that is told of most often; empty where there is
   // none.
   std::string movedApartFrom(const std::string &frame) const;
@@ -48,15 +53,20 @@ class FrameTree {
     std::string parent, child;
     std::vector<TimedPose> samples;
   };
+  // Transforms of a body's outermost frame, which is the only one that they can tell of without a contradiction, of
+  // another one, and odometry.
+  enum class Rank { kTransforms, kTransformsOfAPart, kOdometry };
   struct Link {
     std::string parent;
     std::optional<sphc_rigid> fixed;
     std::vector<TimedPose> moving;  // in order of time
     PoseTrack track;                // of `moving`
-    Teller teller;                  // of `moving`
-    std::string rival;              // a topic that is as good as the teller's
+    Rank rank{};                    // of who tells of `moving`
+    std::string topic;              // likewise
+    std::string rival;              // another topic of this rank
   };
-  void hang(Claim *claim);
+  Rank rankOf(const Claim &claim) const;
+  void hang(Rank rank, Claim *claim);
   // A frame's links outwards, up to the root.  No link closes a ring.
   std::vector<const Link *> linksOf(std::string frame) const;
   std::string rootOf(const std::string &frame) const;
@@ -65,6 +75,7 @@ class FrameTree {
   std::map<std::string, Link> links_;                            // by the child
   std::vector<Claim> claims_;                                    // in the order in which they begin
   std::map<std::array<std::string, 3>, size_t> claim_by_names_;  // topic, parent, child
+  std::optional<Useless> useless_;                               // the first
 };
 
 }  // namespace sphc::recording

@@ -125,6 +125,12 @@ void requireOneTeller(const FrameTree &frames, const std::string &color_frame, c
 
 // Why nothing tells where the camera was, though something moves; empty where nothing is to be said.
 std::string poseFaultOf(const FrameTree &frames, const std::string &color_frame) {
+  const std::optional<FrameTree::Useless> &useless = frames.useless();
+  if (useless)
+    return "it has no poses: " + useless->topic + " tells where \"" + useless->child + "\" was in \"" +
+           useless->parent +
+           "\", and one has no name, or both are of one body; record it with two names in child_frame_id and "
+           "header.frame_id, or take spherecloud map";
   const std::string moved = frames.movedApartFrom(color_frame);
   if (moved.empty()) return "";
   return "it has no poses: odometry or tf moves " + moved + ", and no transform joins that to " + color_frame +
