@@ -192,10 +192,11 @@ TEST_F(Ros2, PosesOfTransforms) {
   addImagesAndCameras();
   addBody();
   addOdometry("/tf", true);
-  // A map that is told seldom, and moved against the odometry by a metre to the left.
-  for (const int64_t at : {-40000000, 200000000})
+  // A map that is told seldom, and moved against the odometry, at the time of image 1 by a metre to the left.
+  for (const int64_t at : {-100000000, 100000000})
     bag_.add("/tf", kTf, kStartNs,
-             test::rosTransforms(kStartNs + at, {{"map", "odom", {{1, 0, 0, 0}, {0, 1, 0}}}}));
+             test::rosTransforms(kStartNs + kStepNs + at,
+                                 {{"map", "odom", {{1, 0, 0, 0}, {0, 1 + static_cast<double>(at) / 1e9, 0}}}}));
   const RecordingReader reader(write());
   expectWalksForward(reader);
   EXPECT_NEAR(reader.worldFromCamera(1)->t_m[1], 1, 1e-9);
@@ -306,6 +307,37 @@ TEST_F(Ros2, OdometryThatMovesNothingIsNamed) {
             "\", and one has no name, or both are of one body; record it with two names in child_frame_id and "
             "header.frame_id, or take spherecloud map");
   }
+}
+
+// As those who have no /tf_static tell what is fixed; a quaternion and its negative are one rotation.
+TEST_F(Ros2, TransformsThatNeverChangeAreFixed) {
+  addImagesAndCameras();
+  const auto add_mount = [this](int64_t i, double y_m) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    bag_.add(
+        "/tf", kTf, kStartNs,
+        test::rosTransforms(kStartNs + i * 50000000, {{"base_link", kColorFrame, {{sign, 0, 0, 0}, {0, 0, 0}}},
+                                                      {"base_link", kDepthFrame, {{sign, 0, 0, 0}, {0, y_m, 0}}}}));
+  };
+  for (int64_t i = -1; i < 4; ++i) add_mount(i, 0.25);
+  EXPECT_TRUE(RecordingReader(write()).recording().poses.poses().empty()) << "nothing moves";
+  addOdometry("/tf", true);
+  const RecordingReader reader(write());
+  EXPECT_EQ(reader.calibration().color_from_depth.t_m[1], 0.25);
+  ASSERT_TRUE(reader.worldFromCamera(2));
+  EXPECT_NEAR(reader.worldFromCamera(2)->t_m[0], 0.55, 1e-9);
+  add_mount(4, 0.2501);
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("bag.mcap: depth_optical and color_optical are joined only by what moves on "
+                        "/tf; give a calibration file"));
+}
+
+TEST_F(Ros2, ABodyThatOdometryTellsOfMovesEvenWhereItStandsStill) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/tf", true, "odom", "base_link", 0);
+  addOdometry("/odom", false, "odom", "base_link", 0);
+  EXPECT_TRUE(RecordingReader(write()).worldFromCamera(0));
 }
 
 TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {

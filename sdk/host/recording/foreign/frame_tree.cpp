@@ -1,12 +1,15 @@
 #include "host/recording/foreign/frame_tree.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sphc::recording {
 
 namespace {
 
 constexpr int64_t kMostGapNs = 1000000000;  // between transforms of a link; drift of a map is told seldom
+constexpr size_t kMostLinks = 256;          // one after the other; a robot has some ten
+constexpr double kSameTransform = 1e-9;     // metres, and of a quaternion's numbers
 constexpr sphc_rigid kSameFrame = {{1, 0, 0, 0}, {0, 0, 0}};
 
 sphc_rigid composed(const sphc_rigid &c_from_b, const sphc_rigid &b_from_a) {
@@ -19,6 +22,22 @@ sphc_rigid inverted(const sphc_rigid &b_from_a) {
   sphc_rigid a_from_b;
   sphc_rigid_inverse(&b_from_a, &a_from_b);
   return a_from_b;
+}
+
+// To rounding.
+bool areEqual(const sphc_rigid &a, const sphc_rigid &b) {
+  double cosine = 0, apart_m = 0;
+  for (int i = 0; i < 4; ++i) cosine += a.q_wxyz[i] * b.q_wxyz[i];
+  for (int i = 0; i < 3; ++i) apart_m = std::max(apart_m, std::abs(a.t_m[i] - b.t_m[i]));
+  double apart = 0;
+  for (int i = 0; i < 4; ++i)
+    apart = std::max(apart, std::abs(a.q_wxyz[i] - std::copysign(1.0, cosine) * b.q_wxyz[i]));
+  return apart <= kSameTransform && apart_m <= kSameTransform;
+}
+
+bool areAllEqual(const std::vector<TimedPose> &samples) {
+  return std::all_of(samples.begin(), samples.end(),
+                     [&](const TimedPose &sample) { return areEqual(samples[0].pose, sample.pose); });
 }
 
 }  // namespace
@@ -34,6 +53,7 @@ void FrameTree::addMoving(const Teller &teller, const std::string &parent, const
                           const TimedPose &parent_from_child) {
   const auto [found, is_new] = claim_by_names_.try_emplace({teller.topic, parent, child}, claims_.size());
   if (is_new) claims_.push_back({teller, parent, child, {}});
+  if (is_new && teller.is_odometry) odometry_.insert(child);
   claims_[found->second].samples.push_back(parent_from_child);
 }
 
@@ -41,9 +61,17 @@ void FrameTree::resolve() {
   for (Claim &claim : claims_)
     std::stable_sort(claim.samples.begin(), claim.samples.end(),
                      [](const TimedPose &a, const TimedPose &b) { return a.time_ns < b.time_ns; });
+  for (const Claim &claim : claims_)
+    if (isStill(claim)) addFixed(claim.parent, claim.child, claim.samples[0].pose);
   for (const Rank rank : {Rank::kTransforms, Rank::kTransformsOfAPart, Rank::kOdometry})
     for (Claim &claim : claims_)
-      if (rankOf(claim) == rank) hang(rank, &claim);
+      if (rankOf(claim) == rank && !isStill(claim)) hang(rank, &claim);
+}
+
+// Whoever has no topic of what is fixed tells it over and over.
+bool FrameTree::isStill(const Claim &claim) const {
+  return !claim.teller.is_odometry && claim.samples.size() > 1 && odometry_.count(claim.child) == 0 &&
+         areAllEqual(claim.samples);
 }
 
 FrameTree::Rank FrameTree::rankOf(const Claim &claim) const {
@@ -79,8 +107,9 @@ void FrameTree::hang(Rank rank, Claim *claim) {
 
 std::vector<const FrameTree::Link *> FrameTree::linksOf(std::string frame) const {
   std::vector<const Link *> links;
-  for (auto found = links_.find(frame); found != links_.end() && !found->second.parent.empty();
+  for (auto found = links_.find(frame); found != links_.end() && links.size() < kMostLinks;
        found = links_.find(frame)) {
+    if (found->second.parent.empty()) break;
     links.push_back(&found->second);
     frame = found->second.parent;
   }
@@ -103,6 +132,8 @@ std::string FrameTree::bodyOf(const std::string &frame, sphc_rigid &body_from_fr
   }
   return body;
 }
+
+bool FrameTree::areJoined(const std::string &a, const std::string &b) const { return rootOf(a) == rootOf(b); }
 
 std::optional<sphc_rigid> FrameTree::fixed(const std::string &target, const std::string &source) const {
   sphc_rigid body_from_target, body_from_source;

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,14 @@ class FrameTree {
   void addMoving(const Teller &teller, const std::string &parent, const std::string &child,
                  const TimedPose &parent_from_child);
   // What is told of a frame counts for all that is fixed to it.  Of those who tell of one body, transforms come
-  // before odometry, then the first that told.  To be called when all is added.
+  // before odometry, then the first that told.  Transforms that never change are fixed, but where odometry tells of
+  // that frame.  To be called when all is added.
   void resolve();
 
   // Between frames of one body; none where something moves between them, or nothing joins them.
   std::optional<sphc_rigid> fixed(const std::string &target, const std::string &source) const;
+  // By anything, fixed or moving.
+  bool areJoined(const std::string &a, const std::string &b) const;
   // root_from_frame of the outermost frame, at every time of the transform on the way that is told most often;
   // empty where nothing on the way moves.
   PoseTrack track(const std::string &frame) const;
@@ -65,9 +69,10 @@ class FrameTree {
     std::string topic;              // likewise
     std::string rival;              // another topic of this rank
   };
+  bool isStill(const Claim &claim) const;
   Rank rankOf(const Claim &claim) const;
   void hang(Rank rank, Claim *claim);
-  // A frame's links outwards, up to the root.  No link closes a ring.
+  // A frame's links outwards, up to the root or as many as a tree can have.
   std::vector<const Link *> linksOf(std::string frame) const;
   std::string rootOf(const std::string &frame) const;
   std::string bodyOf(const std::string &frame, sphc_rigid &body_from_frame) const;
@@ -75,6 +80,7 @@ class FrameTree {
   std::map<std::string, Link> links_;                            // by the child
   std::vector<Claim> claims_;                                    // in the order in which they begin
   std::map<std::array<std::string, 3>, size_t> claim_by_names_;  // topic, parent, child
+  std::set<std::string> odometry_;                               // frames that it tells of
   std::optional<Useless> useless_;                               // the first
 };
 

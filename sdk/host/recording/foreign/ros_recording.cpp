@@ -96,8 +96,11 @@ sphc_rig rigOf(const RosBag &bag, const RosImageTopic &color, const RosImageTopi
   rig.depth_camera = cameraOfTopic(bag.content, depth);
   const std::optional<sphc_rigid> color_from_depth = bag.frames.fixed(color.frame, depth.frame);
   if (!color_from_depth)
-    throw Failure(SPHC_E_ARGUMENT, "no transform from " + depth.frame + " to " + color.frame +
-                                       " in tf_static; record it too, or give a calibration file");
+    throw Failure(SPHC_E_ARGUMENT, bag.frames.areJoined(depth.frame, color.frame)
+                                       ? depth.frame + " and " + color.frame +
+                                             " are joined only by what moves on /tf; give a calibration file"
+                                       : "no transform from " + depth.frame + " to " + color.frame +
+                                             " in tf_static; record it too, or give a calibration file");
   rig.color_from_depth = *color_from_depth;
   const auto unit = bag.content.depth_unit_m.find(realsenseSensorOf(depth.name));
   rig.depth_unit_m = unit == bag.content.depth_unit_m.end() ? 0.001 : static_cast<double>(unit->second);
