@@ -571,13 +571,30 @@ TEST_F(Ros2, BinnedImagesAreRefused) {
 }
 
 TEST_F(Ros2, AnEncodingThatIsNotReadIsNamed) {
+  addColor(0);
+  addColor(1, "/camera/color/image_raw", "bayer_rggb8");
+  for (const uint32_t i : {0u, 1u}) addDepth(i);
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  RecordingReader reader(write());
+  EXPECT_THAT(refusal([&] { reader.read(1); }), HasSubstr("is of the encoding \"bayer_rggb8\"; rgb8, bgr8"));
+}
+
+// As industrial cameras record their sensor's images beside those that a node makes of them.
+TEST_F(Ros2, ATopicThatIsNotReadIsNoColour) {
   addColor(0, "/camera/color/image_raw", "bayer_rggb8");
   addDepth(0);
   addColorInfo();
   addDepthInfo();
   addBody();
-  RecordingReader reader(write());
-  EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("is of the encoding \"bayer_rggb8\"; rgb8, bgr8"));
+  EXPECT_THAT(refusalOfOpen(),
+              AllOf(HasSubstr("/camera/color/image_raw of bayer_rggb8"), HasSubstr("; rgb8, bgr8")));
+  const cv::Mat color(kHeight, kWidth, CV_8UC3, cv::Scalar::all(70));
+  bag_.add(
+      "/camera/color/image_rect/compressed", kCompressed, kStartNs,
+      test::rosCompressedImage(kStartNs, kColorFrame, "bayer_rggb8; png compressed bgr8", encoded(color, ".png")));
+  EXPECT_EQ(static_cast<const uint8_t *>(RecordingReader(write()).read(0).color.data)[0], 70);
 }
 
 TEST_F(Ros2, GreyOf16BitsNamesWhatIsRead) {

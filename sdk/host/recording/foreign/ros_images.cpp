@@ -14,6 +14,16 @@ namespace {
 
 constexpr size_t kCompressedDepthHeadBytes = 12;  // its format and two numbers of the quantization
 
+struct RawColor {
+  std::string_view encoding;
+  sphc_format format;
+  uint32_t pixel_bytes;  // 4: a fourth byte follows, which is left out
+};
+constexpr RawColor kRawColors[] = {{"rgb8", SPHC_FORMAT_RGB8, 3},   {"bgr8", SPHC_FORMAT_BGR8, 3},
+                                   {"8UC3", SPHC_FORMAT_BGR8, 3},   {"rgba8", SPHC_FORMAT_RGB8, 4},
+                                   {"bgra8", SPHC_FORMAT_BGR8, 4},  {"8UC4", SPHC_FORMAT_BGR8, 4},
+                                   {"mono8", SPHC_FORMAT_GRAY8, 1}, {"8UC1", SPHC_FORMAT_GRAY8, 1}};
+
 [[noreturn]] void failRos(const std::string &what) {
   throw Failure(SPHC_E_DEVICE, "is malformed (" + what + "); record it again");
 }
@@ -33,20 +43,19 @@ void requireRows(const RosImage &image, uint32_t pixel_bytes) {
     failRos("its rows");
 }
 
+const RawColor *rawColorOf(std::string_view encoding) {
+  for (const RawColor &known : kRawColors)
+    if (known.encoding == encoding) return &known;
+  return nullptr;
+}
+
 void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) {
-  const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8" || image.encoding == "8UC4";
-  if (has_alpha) {
-    requireRows(image, 4);
-    const sphc_format recorded = image.encoding == "rgba8" ? SPHC_FORMAT_RGB8 : SPHC_FORMAT_BGR8;
-    return packOpaque(image.data.data, image.width, image.height, image.step, recorded, format, pixels);
-  }
-  const sphc_format recorded = image.encoding == "8UC1"   ? SPHC_FORMAT_GRAY8
-                               : image.encoding == "8UC3" ? SPHC_FORMAT_BGR8
-                                                          : formatOf(image.encoding);
-  if (recorded != SPHC_FORMAT_GRAY8 && recorded != SPHC_FORMAT_RGB8 && recorded != SPHC_FORMAT_BGR8)
-    failEncoding(image.encoding, kReadRosColor);
-  requireRows(image, sphc_format_bytes(recorded));
-  packPixels({image.data.data, image.width, image.height, image.step, recorded}, format, pixels);
+  const RawColor *raw = rawColorOf(image.encoding);
+  if (!raw) failEncoding(image.encoding, kReadRosColor);
+  requireRows(image, raw->pixel_bytes);
+  if (raw->pixel_bytes == 4)
+    return packOpaque(image.data.data, image.width, image.height, image.step, raw->format, format, pixels);
+  packPixels({image.data.data, image.width, image.height, image.step, raw->format}, format, pixels);
 }
 
 void decodeRawDepth(const RosImage &image, uint16_t *depth_mm) {
@@ -100,6 +109,8 @@ ImageSize rosImageSize(const RosCompressedImage &image) {
     return {0, 0};
   }
 }
+
+bool isReadRosColor(std::string_view encoding) { return rawColorOf(encoding) != nullptr; }
 
 uint16_t millimetresOf(float depth_m) {
   const float depth_mm = std::round(depth_m * 1000.0f);

@@ -15,6 +15,9 @@ void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_ca
                     uint8_t *pixels);
 void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm);
 
+// Whether raw images of this encoding can be colour.
+bool isReadRosColor(std::string_view encoding);
+
 // What is read, for refusals.
 constexpr const char *kReadRosColor = "rgb8, bgr8, rgba8, bgra8, mono8, JPEG and PNG are read: record such a topic";
 constexpr const char *kReadRosDepth = "16UC1, mono16 and 32FC1 are read: record such a topic";

@@ -39,7 +39,7 @@ bool isPictureOfDepth(const RosImageTopic &topic) {
 // 0: none.  What is called colour comes first, then what has colours; raw images before the same ones compressed.
 int colorScore(const RosImageTopic &topic) {
   if (isDepthTopic(topic) || isPictureOfDepth(topic) || topic.images.empty()) return 0;
-  const bool is_read = topic.coding.is_compressed || has(topic.encoding, "8");
+  const bool is_read = topic.coding.is_compressed || isReadRosColor(topic.encoding);
   if (!is_read) return 0;
   return 1 + (topic.coding.is_compressed ? 0 : 1) + (isGrey(topic) ? 0 : 2) + (isInfrared(topic) ? 0 : 4) +
          (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
