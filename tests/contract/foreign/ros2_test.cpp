@@ -487,6 +487,35 @@ TEST_F(Ros2, CompressedImages) {
   EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[0], 2345);
 }
 
+// As image_transport writes it where its format is png: without the head of compressedDepth.
+TEST_F(Ros2, DepthAsPlainPng) {
+  addColor(0, "/camera/color/image_raw");
+  const cv::Mat depth(kDepthSide, kDepthSide, CV_16UC1, 2345);
+  const auto add_depth = [&](const char *topic, const char *format, const char *ending = ".png") {
+    bag_.add(topic, kCompressed, kStartNs,
+             test::rosCompressedImage(kStartNs, kDepthFrame, format, encoded(depth, ending)));
+  };
+  add_depth("/aligned_to_color/image_raw/compressed", "16UC1; jpeg compressed ", ".jpg");
+  add_depth("/camera/color/grey/compressed", "mono16; png compressed ");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("holds no depth image that is read"));
+  add_depth("/aligned_to_color/image/compressed", "16UC1; png compressed ");
+  folder_.write("c.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "color_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [30, 30, 16, 12]},
+    "depth_camera": {"model": "pinhole", "width": 16, "height": 16, "params": [20, 20, 8, 8]},
+    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}, "depth_unit_m": 0.001})");
+  recording::ReaderOptions options;
+  options.calibration = folder_ / "c.json";
+  EXPECT_EQ(static_cast<const uint16_t *>(RecordingReader(write(), options).read(0).depth.data)[0], 2345);
+  add_depth("/camera/depth/image/compressed", "mono16; png compressed ");
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("both /aligned_to_color/image/compressed and /camera/depth/image/compressed may be"));
+  Bytes png = encoded(cv::Mat(kDepthSide, kDepthSide, CV_16UC1, 3456), ".png");
+  png.insert(png.begin(), 12, uint8_t{0});
+  bag_.add("/camera/depth/image/compressedDepth", kCompressed, kStartNs,
+           test::rosCompressedImage(kStartNs, kDepthFrame, "mono16; compressedDepth png", png));
+  EXPECT_EQ(static_cast<const uint16_t *>(RecordingReader(write(), options).read(0).depth.data)[0], 3456);
+}
+
 TEST_F(Ros2, ABagIsAFolderToo) {
   addImagesAndCameras();
   addBody();

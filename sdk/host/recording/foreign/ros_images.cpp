@@ -97,7 +97,7 @@ void decodeRvlDepth(ByteView data, const sphc_camera &camera, uint16_t *depth_mm
 
 ImageSize rosImageSize(const RosCompressedImage &image) {
   ByteReader reader(image.data);
-  if (image.format.find("compressedDepth") != std::string_view::npos) reader.take(kCompressedDepthHeadBytes);
+  if (isCompressedDepth(image.format)) reader.take(kCompressedDepthHeadBytes);
   if (image.format.find("rvl") != std::string_view::npos) {
     const uint32_t width = reader.little<uint32_t>(), height = reader.little<uint32_t>();
     return reader.ok() ? ImageSize{width, height} : ImageSize{0, 0};
@@ -109,6 +109,12 @@ ImageSize rosImageSize(const RosCompressedImage &image) {
     return {0, 0};
   }
 }
+
+bool isRos16Bit(std::string_view format) {
+  return format.substr(0, 5) == "16UC1" || format.substr(0, 6) == "mono16";
+}
+
+bool isCompressedDepth(std::string_view format) { return format.find("compressedDepth") != std::string_view::npos; }
 
 bool isReadRosColor(std::string_view encoding) { return rawColorOf(encoding) != nullptr; }
 
@@ -127,10 +133,10 @@ void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_ca
 void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm) {
   if (!is_compressed) return decodeRawDepth(rawImage(message, camera, false), depth_mm);
   const RosCompressedImage image = compressedImage(message);
-  if (image.format.substr(0, 5) != "16UC1")
-    failEncoding(image.format, "compressed depth is read where it was 16UC1: record the raw topic");
+  if (!isRos16Bit(image.format))
+    failEncoding(image.format, "compressed depth is read where it was 16UC1 or mono16: record the raw topic");
   ByteReader reader(image.data);
-  reader.take(kCompressedDepthHeadBytes);
+  if (isCompressedDepth(image.format)) reader.take(kCompressedDepthHeadBytes);
   if (!reader.ok()) failRos("its head");
   const ByteView data = reader.take(reader.left());
   if (image.format.find("rvl") != std::string_view::npos) return decodeRvlDepth(data, camera, depth_mm);

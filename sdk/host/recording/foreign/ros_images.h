@@ -17,6 +17,10 @@ void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_ca
 
 // Whether raw images of this encoding can be colour.
 bool isReadRosColor(std::string_view encoding);
+// 16UC1 or mono16: the encoding of raw images, or that of which the format of compressed ones says they were made.
+bool isRos16Bit(std::string_view format);
+// Whether twelve bytes come before the image.
+bool isCompressedDepth(std::string_view format);
 
 // What is read, for refusals.
 constexpr const char *kReadRosColor = "rgb8, bgr8, rgba8, bgra8, mono8, JPEG and PNG are read: record such a topic";

@@ -22,11 +22,13 @@ bool has(const std::string &text, const char *part) {
 
 bool isInfrared(const RosImageTopic &topic) { return has(topic.name, "infra") || has(topic.name, "/ir/"); }
 
+// By 16UC1, or by mono16 where the topic's name says so.
 bool isDepthTopic(const RosImageTopic &topic) {
   if (isInfrared(topic)) return false;
-  if (topic.coding.is_compressed) return has(topic.encoding, "compresseddepth");
-  return topic.encoding == "16UC1" || topic.encoding == "32FC1" ||
-         (topic.encoding == "mono16" && has(topic.name, "depth"));
+  if (isCompressedDepth(topic.encoding)) return true;
+  const bool is_deep = isRos16Bit(topic.encoding) && (topic.encoding[0] == '1' || has(topic.name, "depth"));
+  if (topic.coding.is_compressed) return is_deep && has(topic.encoding, "png");
+  return is_deep || topic.encoding == "32FC1";
 }
 
 bool isGrey(const RosImageTopic &topic) { return topic.encoding == "mono8" || topic.encoding == "8UC1"; }
@@ -39,17 +41,17 @@ bool isPictureOfDepth(const RosImageTopic &topic) {
 // 0: none.  What is called colour comes first, then what has colours; raw images before the same ones compressed.
 int colorScore(const RosImageTopic &topic) {
   if (isDepthTopic(topic) || isPictureOfDepth(topic) || topic.images.empty()) return 0;
-  const bool is_read = topic.coding.is_compressed || isReadRosColor(topic.encoding);
+  const bool is_read = topic.coding.is_compressed ? !isRos16Bit(topic.encoding) : isReadRosColor(topic.encoding);
   if (!is_read) return 0;
   return 1 + (topic.coding.is_compressed ? 0 : 1) + (isGrey(topic) ? 0 : 2) + (isInfrared(topic) ? 0 : 4) +
          (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
 }
 
-// Depth that lies on colour comes first.
+// Depth that lies on colour comes first; raw images before the same ones compressed, compressedDepth before PNG.
 int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
   if (!isDepthTopic(topic) || topic.images.empty()) return 0;
-  return 1 + (topic.coding.is_compressed ? 0 : 1) + (isOfRectified(topic) ? 2 : 0) +
-         (topic.frame == color.frame ? 4 : 0);
+  const int of_transport = !topic.coding.is_compressed ? 2 : isCompressedDepth(topic.encoding) ? 1 : 0;
+  return 1 + of_transport + (isOfRectified(topic) ? 3 : 0) + (topic.frame == color.frame ? 6 : 0);
 }
 
 const RosImageTopic &chooseTopic(const RosContent &content, const char *what, const char *cure,
