@@ -26,6 +26,10 @@ constexpr const char *kImage = "sensor_msgs/msg/Image", *kCompressed = "sensor_m
 constexpr uint32_t kWidth = 32, kHeight = 24, kDepthSide = 16;
 constexpr int64_t kStartNs = 1700000000000000000, kStepNs = 33000000;
 constexpr const char *kColorFrame = "color_optical", *kDepthFrame = "depth_optical";
+constexpr const char *kCalibration = R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+  "color_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [30, 30, 16, 12]},
+  "depth_camera": {"model": "pinhole", "width": 16, "height": 16, "params": [20, 20, 8, 8]},
+  "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}, "depth_unit_m": 0.001})";
 const sphc_rigid kSame = {{1, 0, 0, 0}, {0, 0, 0}};
 // Of the optical frame in a body with x forward, y left, z up: right is -y, down is -z, forward is x.
 const sphc_rigid kBodyFromOptical = {{0.5, -0.5, 0.5, -0.5}, {0.1, 0, 0}};
@@ -340,6 +344,27 @@ TEST_F(Ros2, ABodyThatOdometryTellsOfMovesEvenWhereItStandsStill) {
   EXPECT_TRUE(RecordingReader(write()).worldFromCamera(0));
 }
 
+// Of nodes that somebody made himself.
+TEST_F(Ros2, TwoImagesWithoutAFrameAreNotInOneFrame) {
+  bag_.add("/camera/color/image_raw", kImage, kStartNs,
+           test::rosImage(kStartNs, "", kWidth, kHeight, "rgb8", colorPixels(9)));
+  bag_.add("/camera/depth/image_raw", kImage, kStartNs,
+           test::rosImage(kStartNs, "", kDepthSide, kDepthSide, "16UC1", depthPixels(1000)));
+  addColorInfo();
+  addDepthInfo();
+  addOdometry();
+  EXPECT_THAT(
+      refusalOfOpen(),
+      HasSubstr("bag.mcap: the images of /camera/color/image_raw name no frame (header.frame_id), so nothing "
+                "tells where depth lies on colour; record them with one, or give a calibration file"));
+  folder_.write("c.json", kCalibration);
+  recording::ReaderOptions options;
+  options.calibration = folder_ / "c.json";
+  EXPECT_THAT(
+      RecordingReader(write(), options).recording().pose_fault,
+      HasSubstr("moves base_link, and the colour images name no frame (header.frame_id); record them with"));
+}
+
 TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {
   addImagesAndCameras();
   bag_.add("/tf", kTf, kStartNs,
@@ -499,10 +524,7 @@ TEST_F(Ros2, DepthAsPlainPng) {
   add_depth("/camera/color/grey/compressed", "mono16; png compressed ");
   EXPECT_THAT(refusalOfOpen(), HasSubstr("holds no depth image that is read"));
   add_depth("/aligned_to_color/image/compressed", "16UC1; png compressed ");
-  folder_.write("c.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
-    "color_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [30, 30, 16, 12]},
-    "depth_camera": {"model": "pinhole", "width": 16, "height": 16, "params": [20, 20, 8, 8]},
-    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}, "depth_unit_m": 0.001})");
+  folder_.write("c.json", kCalibration);
   recording::ReaderOptions options;
   options.calibration = folder_ / "c.json";
   EXPECT_EQ(static_cast<const uint16_t *>(RecordingReader(write(), options).read(0).depth.data)[0], 2345);
@@ -548,10 +570,7 @@ TEST_F(Ros2, ACameraThatIsNotToldIsGivenByAFile) {
   addDepth(0);
   EXPECT_THAT(refusalOfOpen(),
               HasSubstr("no /camera/color/camera_info; record it too, or give a calibration file"));
-  folder_.write("c.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
-    "color_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [30, 30, 16, 12]},
-    "depth_camera": {"model": "pinhole", "width": 16, "height": 16, "params": [20, 20, 8, 8]},
-    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}, "depth_unit_m": 0.001})");
+  folder_.write("c.json", kCalibration);
   recording::ReaderOptions options;
   options.calibration = folder_ / "c.json";
   EXPECT_EQ(RecordingReader(write(), options).frameCount(), 1u);

@@ -133,10 +133,13 @@ std::string FrameTree::bodyOf(const std::string &frame, sphc_rigid &body_from_fr
   return body;
 }
 
-bool FrameTree::areJoined(const std::string &a, const std::string &b) const { return rootOf(a) == rootOf(b); }
+bool FrameTree::areJoined(const std::string &a, const std::string &b) const {
+  return !a.empty() && rootOf(a) == rootOf(b);
+}
 
 std::optional<sphc_rigid> FrameTree::fixed(const std::string &target, const std::string &source) const {
   sphc_rigid body_from_target, body_from_source;
+  if (target.empty() || source.empty()) return {};
   if (bodyOf(target, body_from_target) != bodyOf(source, body_from_source)) return {};
   return composed(inverted(body_from_target), body_from_source);
 }

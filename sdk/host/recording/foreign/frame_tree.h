@@ -28,7 +28,8 @@ class FrameTree {
   // that frame.  To be called when all is added.
   void resolve();
 
-  // Between frames of one body; none where something moves between them, or nothing joins them.
+  // Between frames of one body; none where something moves between them, or nothing joins them.  Two frames without
+  // a name are not one frame.
   std::optional<sphc_rigid> fixed(const std::string &target, const std::string &source) const;
   // By anything, fixed or moving.
   bool areJoined(const std::string &a, const std::string &b) const;

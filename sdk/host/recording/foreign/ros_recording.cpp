@@ -89,18 +89,26 @@ sphc_camera cameraOfTopic(const RosContent &content, const RosImageTopic &topic)
   }
 }
 
+std::string whyApart(const FrameTree &frames, const RosImageTopic &color, const RosImageTopic &depth) {
+  for (const RosImageTopic *topic : {&color, &depth})
+    if (topic->frame.empty())
+      return "the images of " + topic->name +
+             " name no frame (header.frame_id), so nothing tells where depth lies on colour; record them with one, "
+             "or "
+             "give a calibration file";
+  if (frames.areJoined(depth.frame, color.frame))
+    return depth.frame + " and " + color.frame + " are joined only by what moves on /tf; give a calibration file";
+  return "no transform from " + depth.frame + " to " + color.frame +
+         " in tf_static; record it too, or give a calibration file";
+}
+
 sphc_rig rigOf(const RosBag &bag, const RosImageTopic &color, const RosImageTopic &depth) {
   sphc_rig rig;
   sphc_rig_init(&rig);
   rig.color_camera = cameraOfTopic(bag.content, color);
   rig.depth_camera = cameraOfTopic(bag.content, depth);
   const std::optional<sphc_rigid> color_from_depth = bag.frames.fixed(color.frame, depth.frame);
-  if (!color_from_depth)
-    throw Failure(SPHC_E_ARGUMENT, bag.frames.areJoined(depth.frame, color.frame)
-                                       ? depth.frame + " and " + color.frame +
-                                             " are joined only by what moves on /tf; give a calibration file"
-                                       : "no transform from " + depth.frame + " to " + color.frame +
-                                             " in tf_static; record it too, or give a calibration file");
+  if (!color_from_depth) throw Failure(SPHC_E_ARGUMENT, whyApart(bag.frames, color, depth));
   rig.color_from_depth = *color_from_depth;
   const auto unit = bag.content.depth_unit_m.find(realsenseSensorOf(depth.name));
   rig.depth_unit_m = unit == bag.content.depth_unit_m.end() ? 0.001 : static_cast<double>(unit->second);
@@ -136,6 +144,9 @@ std::string poseFaultOf(const FrameTree &frames, const std::string &color_frame)
            "header.frame_id, or take spherecloud map";
   const std::string moved = frames.movedApartFrom(color_frame);
   if (moved.empty()) return "";
+  if (color_frame.empty())
+    return "it has no poses: odometry or tf moves " + moved +
+           ", and the colour images name no frame (header.frame_id); record them with one, or take spherecloud map";
   return "it has no poses: odometry or tf moves " + moved + ", and no transform joins that to " + color_frame +
          ", the colour camera's frame; record /tf_static with it, or take spherecloud map";
 }

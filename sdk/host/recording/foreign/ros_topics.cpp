@@ -51,7 +51,8 @@ int colorScore(const RosImageTopic &topic) {
 int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
   if (!isDepthTopic(topic) || topic.images.empty()) return 0;
   const int of_transport = !topic.coding.is_compressed ? 2 : isCompressedDepth(topic.encoding) ? 1 : 0;
-  return 1 + of_transport + (isOfRectified(topic) ? 3 : 0) + (topic.frame == color.frame ? 6 : 0);
+  return 1 + of_transport + (isOfRectified(topic) ? 3 : 0) +
+         (!color.frame.empty() && topic.frame == color.frame ? 6 : 0);
 }
 
 const RosImageTopic &chooseTopic(const RosContent &content, const char *what, const char *cure,
