@@ -1,22 +1,12 @@
 // ROS camera_info as camera_calibration_parsers writes it: one camera a file.
-#include <array>
-
 #include "host/calibration/formats.h"
 #include "host/calibration/yaml_map.h"
-#include "host/cameras/fault.h"
 #include "host/cameras/intrinsics.h"
 #include "host/cameras/number_text.h"
 #include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {
-
-struct Distortion {
-  const char *name;
-  size_t count;
-};
-constexpr std::array<Distortion, 3> kDistortions = {
-    {{"plumb_bob", 5}, {"rational_polynomial", 8}, {"equidistant", 4}}};
 
 std::string rosMatrix(const std::string &key, size_t rows, size_t cols, const std::vector<double> &data) {
   return key + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(cols) + "\n  data: [" +
@@ -45,22 +35,12 @@ CalibrationPart readRos(const TextFile &file) {
       intrinsicsFromMatrix(matrix.numbers("data", "[fx, 0, cx, 0, fy, cy, 0, 0, 1]"), kZeroCentered, &intrinsics);
   if (!fault.empty()) matrix.refuse("data", fault);
 
-  const std::string model = map.text("distortion_model", "plumb_bob");
-  const YamlMap coefficients = map.map("distortion_coefficients");
-  const std::vector<double> d = coefficients.numbers("data", "[0, 0, 0, 0, 0]");
-  for (const Distortion &known : kDistortions) {
-    if (model != known.name) continue;
-    if (d.size() != known.count)
-      coefficients.refuse("data", "has " + std::to_string(d.size()) + " numbers; " + model + " takes " +
-                                      std::to_string(known.count));
-    NamedCamera camera;
-    camera.name = map.has("camera_name") ? map.text("camera_name", "color") : file.name;
-    fault = cameraFromOpencv(intrinsics, d, model == "equidistant", &camera.camera);
-    if (!fault.empty()) coefficients.refuse("data", fault);
-    return {{camera}, {}, {}};
-  }
-  map.refuse("distortion_model",
-             "is " + shown(model) + "; known here: plumb_bob, rational_polynomial, equidistant");
+  NamedCamera camera;
+  camera.name = map.has("camera_name") ? map.text("camera_name", "color") : file.name;
+  fault = cameraFromRos(intrinsics, map.text("distortion_model", "plumb_bob"),
+                        map.map("distortion_coefficients").numbers("data", "[0, 0, 0, 0, 0]"), &camera.camera);
+  if (!fault.empty()) map.refuse("distortion_model", "is " + fault);
+  return {{camera}, {}, {}};
 }
 
 std::vector<TextFile> rosTexts(const sphc_rig &calibration) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/cameras/fault.h"
 #include "host/cameras/number_text.h"
 
 namespace sphc::host {
@@ -16,6 +17,17 @@ sphc_camera makeCamera(sphc_camera_model model, const Intrinsics &in, const std:
 }
 
 bool isZero(double x) { return x == 0; }
+
+struct RosModel {
+  std::string_view name;
+  size_t fewest, most;  // coefficients
+};
+constexpr std::string_view kRosFisheye = "equidistant";
+// A RealSense has names of its own.  Its software projects by the last two in the same way, with coefficients that
+// differ from Brown's in how tangential and radial distortion multiply.
+constexpr RosModel kRosModels[] = {
+    {"plumb_bob", 4, 5},     {"rational_polynomial", 8, 8},    {kRosFisheye, 4, 4},
+    {"Brown Conrady", 5, 5}, {"Modified Brown Conrady", 5, 5}, {"Inverse Brown Conrady", 5, 5}};
 
 }  // namespace
 
@@ -52,6 +64,20 @@ std::string cameraFromOpencv(const Intrinsics &intrinsics, std::vector<double> d
   std::copy_n(distortion.begin(), 8, k.begin());
   *camera = brownCamera(intrinsics, k);
   return {};
+}
+
+std::string cameraFromRos(const Intrinsics &intrinsics, const std::string &model,
+                          const std::vector<double> &distortion, sphc_camera *camera) {
+  const bool is_fisheye = model == kRosFisheye;
+  if (!is_fisheye && std::all_of(distortion.begin(), distortion.end(), isZero)) {
+    *camera = brownCamera(intrinsics, {});
+    return {};
+  }
+  for (const RosModel &known : kRosModels)
+    if (model == known.name && distortion.size() >= known.fewest && distortion.size() <= known.most)
+      return cameraFromOpencv(intrinsics, distortion, is_fisheye, camera);
+  return shown(model) + " with " + std::to_string(distortion.size()) +
+         " numbers; plumb_bob (4 or 5), rational_polynomial (8) and equidistant (4) are read";
 }
 
 std::vector<double> opencvDistortion(const sphc_camera &camera) {

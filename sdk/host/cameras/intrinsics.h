@@ -27,7 +27,10 @@ sphc_camera fisheyeCamera(const Intrinsics &intrinsics, const std::array<double,
 // A list of OpenCV's: 0, 4, 5, 8, or 12 to 14 whose last ones are 0.  Empty and `camera` set, or what is wrong.
 std::string cameraFromOpencv(const Intrinsics &intrinsics, std::vector<double> distortion, bool fisheye,
                              sphc_camera *camera);
-// The inverse: 5 or 8 coefficients, or 4 of a fisheye.
+// distortion_model and D of a camera_info of ROS.  Empty and `camera` set, or the model and what is read instead.
+std::string cameraFromRos(const Intrinsics &intrinsics, const std::string &model,
+                          const std::vector<double> &distortion, sphc_camera *camera);
+// Of cameraFromOpencv: 5 or 8 coefficients, or 4 of a fisheye.
 std::vector<double> opencvDistortion(const sphc_camera &camera);
 
 // Row-major 3 x 3 with fx, fy, cx, cy and nothing else; cx and cy get `shift` added.  Empty, or what is wrong.
