@@ -93,9 +93,8 @@ std::string whyApart(const FrameTree &frames, const RosImageTopic &color, const 
   for (const RosImageTopic *topic : {&color, &depth})
     if (topic->frame.empty())
       return "the images of " + topic->name +
-             " name no frame (header.frame_id), so nothing tells where depth lies on colour; record them with one, "
-             "or "
-             "give a calibration file";
+             " name no frame (header.frame_id), so nothing tells where depth lies on colour; record them with "
+             "one, or give a calibration file";
   if (frames.areJoined(depth.frame, color.frame))
     return depth.frame + " and " + color.frame + " are joined only by what moves on /tf; give a calibration file";
   return "no transform from " + depth.frame + " to " + color.frame +
@@ -127,15 +126,11 @@ std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::str
   return inOrderOfTime(std::move(chosen));
 }
 
-void requireOneTeller(const FrameTree &frames, const std::string &color_frame, const std::string &file) {
-  const std::optional<FrameTree::Rivals> rivals = frames.rivals(color_frame);
-  if (rivals)
-    throw Failure(SPHC_E_ARGUMENT, file + ": both " + rivals->topic + " and " + rivals->other + " may tell where " +
-                                       rivals->frame + " was; leave one out (docs/imports.md says how)");
-}
-
 // Why nothing tells where the camera was, though something moves; empty where nothing is to be said.
 std::string poseFaultOf(const FrameTree &frames, const std::string &color_frame) {
+  if (const std::optional<FrameTree::Rivals> rivals = frames.rivals(color_frame))
+    return "it has no poses: both " + rivals->topic + " and " + rivals->other + " may tell where " + rivals->frame +
+           " was; leave one out (docs/imports.md says how), or take spherecloud map";
   const std::optional<FrameTree::Useless> &useless = frames.useless();
   if (useless)
     return "it has no poses: " + useless->topic + " tells where \"" + useless->child + "\" was in \"" +
@@ -155,13 +150,12 @@ Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   const std::string name = shortPath(path.string());
   const RosImageTopic &color = chooseColor(bag.content, name);
   const RosImageTopic &depth = chooseDepth(bag.content, color, name);
-  requireOneTeller(bag.frames, color.frame, name);
   Recording recording;
   recording.layout = layout;
   recording.path = path;
   recording.color = imagesOf(color, &recording);
   recording.depth = imagesOf(depth, &recording);
-  recording.poses = bag.frames.track(color.frame);
+  if (!bag.frames.rivals(color.frame)) recording.poses = bag.frames.track(color.frame);
   if (recording.poses.poses().empty()) recording.pose_fault = poseFaultOf(bag.frames, color.frame);
   recording.accelerations = accelerationsOf(bag, color.frame);
   recording.bad_chunk_count = bag.walk.bad_chunk_count;
