@@ -603,6 +603,18 @@ TEST_F(Recorder, WhatFollowsItsEndIsRefusedWithACure) {
   }
 }
 
+// As a tool leaves it that drops metadata and makes no checksum.
+TEST_F(Recorder, ATypeOfOursTellsARecordingWithoutMetadata) {
+  writeTinyMcap(file(), 3, config_);
+  std::string bytes = temp_.read("walk.mcap");
+  const std::string name("\x0B\0\0\0spherecloud", 15);
+  for (size_t at = bytes.find(name); at != std::string::npos; at = bytes.find(name, at + 1)) bytes[at + 4] = 'S';
+  const size_t data_end = bytes.find(std::string("\x0F\x04\0\0\0\0\0\0\0", 9), chunksOf(bytes).back().end);
+  bytes.replace(data_end + 9, 4, 4, '\0');
+  temp_.write("filtered.mcap", bytes);
+  EXPECT_EQ(readAll(temp_ / "filtered.mcap"), readAll(file()));
+}
+
 TEST_F(Recorder, AnotherBeginningIsNamed) {
   writeTinyMcap(file(), 3, config_);
   std::string bytes = temp_.read("walk.mcap");

@@ -34,11 +34,13 @@ class McapScan {
   bool isChanged() const { return is_changed_; }
   // Where its data end; 0: nowhere.
   uint64_t dataEnd() const { return data_end_; }
-  bool isOurs() const;
+  // recorder.h began it: its topics alone are those of any robot.
+  bool isOurs() const { return is_ours_; }
   bool hasChannels() const { return !kinds_.empty(); }
 
  private:
   void readRecord(const RecordPlace &record);
+  void readSchemaRecord(ByteView content);
   void readChunkRecords(const RecordPlace &record);
   void readMessage(const RecordPlace &record);
   bool holdsTrueBytes();
@@ -57,6 +59,7 @@ class McapScan {
   bool checks_all_;
   bool in_order_ = true;
   bool is_changed_ = false;
+  bool is_ours_ = false;
   uint64_t data_end_ = 0;
   std::optional<bool> chunk_is_true_;  // of the chunk being read, once its checksum was compared
   std::map<uint16_t, std::string> schemas_;
@@ -77,7 +80,6 @@ std::optional<ByteView> McapScan::small(const RecordPlace &record) {
 
 void McapScan::readRecord(const RecordPlace &record) {
   const std::optional<ByteView> content = small(record);
-  Schema schema;
   Channel channel;
   if (record.op == Op::kChunk) {
     readChunkRecords(record);
@@ -86,11 +88,23 @@ void McapScan::readRecord(const RecordPlace &record) {
   } else if (record.op == Op::kDataEnd && content) {
     checkData(record.start, readDataEnd(*content));
     data_end_ = record.end();
-  } else if (record.op == Op::kSchema && content && readSchema(*content, schema)) {
-    schemas_[schema.id] = schema.name;
+  } else if (record.op == Op::kMetadata && content) {
+    ByteReader reader(*content);
+    is_ours_ = is_ours_ || takeText(reader) == "spherecloud";
+  } else if (record.op == Op::kSchema && content) {
+    readSchemaRecord(*content);
   } else if (record.op == Op::kChannel && content && readChannel(*content, channel)) {
     kinds_[channel.id] = channel.encoding == "cdr" ? kindOf(channel.topic, schemas_[channel.schema]) : Kind::kNone;
   }
+}
+
+// A tool that picks topics may drop metadata, and keeps the types of what it picks.
+void McapScan::readSchemaRecord(ByteView content) {
+  constexpr std::string_view kOurTypes = "spherecloud_msgs/";
+  Schema schema;
+  if (!readSchema(content, schema)) return;
+  schemas_[schema.id] = schema.name;
+  is_ours_ = is_ours_ || schema.name.substr(0, kOurTypes.size()) == kOurTypes;
 }
 
 void McapScan::readChunkRecords(const RecordPlace &record) {
@@ -218,11 +232,6 @@ void McapScan::readCalibration(const RecordPlace &record) {
   } catch (const Failure &failure) {
     throw Failure(failure.status(), file_.name() + ", calibration.json in it: " + failure.what());
   }
-}
-
-// Some of its channels are those of images as recorder.h writes them, which stand at the head of the file.
-bool McapScan::isOurs() const {
-  return std::any_of(kinds_.begin(), kinds_.end(), [](const auto &channel) { return isImage(channel.second); });
 }
 
 Recording McapScan::run() {

@@ -192,6 +192,23 @@ TEST_F(Ros2, PosesAreTheBodysThroughToTheCamera) {
   expectWalksForward(RecordingReader(write()));
 }
 
+TEST_F(Ros2, TopicsNamedLikeOursAreReadAsTheRobots) {
+  for (uint32_t i = 0; i < 3; ++i) {
+    addColor(i, "/color/image");
+    addDepth(i, "/depth/image");
+  }
+  bag_.add("/color/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  bag_.add("/depth/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kDepthFrame, kDepthSide, kDepthSide, "plumb_bob", {}, {10, 11, 7.5, 7.5}));
+  addBody();
+  addOdometry();
+  RecordingReader reader(write());
+  EXPECT_EQ(reader.recording().layout, recording::Layout::kRos2);
+  expectSamePixels(reader);
+  expectWalksForward(reader);
+}
+
 TEST_F(Ros2, PosesOfTransforms) {
   addImagesAndCameras();
   addBody();
