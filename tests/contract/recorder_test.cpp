@@ -615,6 +615,27 @@ TEST_F(Recorder, ATypeOfOursTellsARecordingWithoutMetadata) {
   EXPECT_EQ(readAll(temp_ / "filtered.mcap"), readAll(file()));
 }
 
+// As "mcap compress" leaves them; nothing of them is decompressed.
+TEST_F(Recorder, ChunksThatAnotherToolCompressedAreRefusedWithACure) {
+  writeTinyMcap(file(), 3, config_);
+  const std::string whole = temp_.read("walk.mcap");
+  std::string other;
+  size_t at = 0;
+  for (const ChunkSpan &chunk : chunksOf(whole)) {
+    constexpr size_t kBeforeName = 9 + 28;
+    const uint64_t bytes = chunk.end - chunk.start - 9 + 4;
+    std::string head = whole.substr(chunk.start, kBeforeName) + std::string("\x04\0\0\0zstd", 8);
+    std::memcpy(&head[1], &bytes, sizeof bytes);
+    other += whole.substr(at, chunk.start - at) + head;
+    at = chunk.start + kBeforeName + 4;
+  }
+  temp_.write("other.mcap", other + whole.substr(at));
+  const OpenReplay replay(temp_ / "other.mcap");
+  EXPECT_EQ(replay.status(), SPHC_E_UNSUPPORTED);
+  EXPECT_THAT(replay.message(), HasSubstr("other.mcap: another tool compressed its chunks (zstd); \"mcap compress "
+                                          "--compression none\" undoes that"));
+}
+
 TEST_F(Recorder, AnotherBeginningIsNamed) {
   writeTinyMcap(file(), 3, config_);
   std::string bytes = temp_.read("walk.mcap");

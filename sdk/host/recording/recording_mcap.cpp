@@ -37,6 +37,8 @@ class McapScan {
   // recorder.h began it: its topics alone are those of any robot.
   bool isOurs() const { return is_ours_; }
   bool hasChannels() const { return !kinds_.empty(); }
+  // Of a chunk that another tool compressed; empty: of none.
+  const std::string &compression() const { return compression_; }
 
  private:
   void readRecord(const RecordPlace &record);
@@ -60,6 +62,7 @@ class McapScan {
   bool in_order_ = true;
   bool is_changed_ = false;
   bool is_ours_ = false;
+  std::string compression_;
   uint64_t data_end_ = 0;
   std::optional<bool> chunk_is_true_;  // of the chunk being read, once its checksum was compared
   std::map<uint16_t, std::string> schemas_;
@@ -111,6 +114,7 @@ void McapScan::readChunkRecords(const RecordPlace &record) {
   ChunkHead head;
   ChunkPlace place;
   if (!readChunk(window_, record, head, place) || (checks_all_ && !chunks_.load(place))) {
+    if (head.compression == "zstd" || head.compression == "lz4") compression_ = head.compression;
     ++recording_.bad_chunk_count;
     return;
   }
@@ -288,6 +292,9 @@ Recording openMcap(const fs::path &path) {
                   file.name() + ": was cut before it says what it holds; copy it again from where it was recorded");
   if (!recording.is_cut) requireEnd(file, window, quick.dataEnd());
   if (!quick.isOurs()) return openRosBag(path);
+  if (!quick.compression().empty())
+    throw Failure(SPHC_E_UNSUPPORTED, file.name() + ": another tool compressed its chunks (" + quick.compression() +
+                                          "); \"mcap compress --compression none\" undoes that");
   if (quick.isChanged()) requireBadChunk(file, recording);
   if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();
   recording.path = path;
