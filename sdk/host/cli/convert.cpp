@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "drivers/replay/reader.h"
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
 #include "host/base/counted.h"
@@ -19,7 +20,6 @@
 #include "host/cli/common/recording_out.h"
 #include "host/frames/recording.h"
 #include "host/live/interrupt.h"
-#include "host/live/replay_damage.h"
 #include "host/recording/writer_7scenes.h"
 #include "host/recording/writer_raw.h"
 
@@ -71,6 +71,13 @@ Replay openStreams(const ConvertOptions &options) {
     return sphc_replay_open(in.folder.c_str(), calibration, &config, &replay, message);
   });
   return Replay(replay);
+}
+
+sphc_replay_info infoOf(const sphc_replay *replay) {
+  sphc_replay_info info = {};
+  info.struct_size = sizeof info;
+  orThrow("recording", [&](sphc_message *) { return sphc_replay_get_info(replay, &info); });
+  return info;
 }
 
 sphc_rig calibrationOf(const sphc_replay *replay) {
@@ -241,7 +248,7 @@ Result convertFrames(const ConvertOptions &options, const Console &console, Fact
 Result convertStreams(const ConvertOptions &options, const Console &console, Facts *facts) {
   const Replay replay = openStreams(options);
   const sphc_replay_info info = infoOf(replay.get());
-  noteDamage(options.in.folder, damageOf(info), console);
+  noteDamage(*replay::readerOf(replay.get()), console);
   *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count};
   sphc_recorder_config recorder = options.recorder;
   // One that lost nothing has numbers of files, or of frames that somebody chose.

@@ -1,8 +1,8 @@
 #include "drivers/replay/reader.h"
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
+#include "host/frames/damage.h"
 #include "host/live/device_kind.h"
-#include "host/live/replay_damage.h"
 
 namespace sphc::host {
 namespace {
@@ -29,9 +29,11 @@ class ReplayDevice : public Device {
 
   std::string describe() const override { return "recording " + address_; }
   std::string troubles() const override {
+    Damage damage = damageOf(replay::readerOf(replay_)->recording());
+    damage.pose_fault.clear();  // doctor tells these two by themselves
+    damage.order_faults.clear();
     std::string all;
-    for (const std::string &sentence : sentencesOf(damageOf(infoOf(replay_))))
-      all += (all.empty() ? "" : "; ") + sentence;
+    for (const std::string &sentence : sentencesOf(damage)) all += (all.empty() ? "" : "; ") + sentence;
     return all;
   }
   bool calibration(sphc_rig *calibration) const override {

@@ -12,6 +12,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/recording_out.h"
 #include "host/recording/recording_reader.h"
+#include "tests/support/ros_bag.h"
 #include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
 
@@ -495,6 +496,35 @@ TEST(Damage, IsSaidByWhateverReadsARecording) {
   }
   EXPECT_THAT(runCommand("doctor --device replay:" + walk).out, Not(HasSubstr(cut_off)));
   EXPECT_THAT(runCommand("live --map " + map + " --device replay:" + walk).err, Not(HasSubstr(cut_off)));
+}
+
+// Once converted, nothing of these can be seen any more.
+TEST(Damage, OfTimesAndPosesIsSaidByConvert) {
+  constexpr uint32_t kSide = 32;
+  const test::TempFolder folder;
+  test::RosBag bag;
+  const std::string sensor = "sensor_msgs/msg/";
+  for (const std::string name : {"/color/", "/depth/"})
+    bag.add(name + "camera_info", sensor + "CameraInfo", 1,
+            test::rosCameraInfo("camera", kSide, kSide, "plumb_bob", {}, {30, 30, 15.5, 15.5}));
+  for (const int64_t i : {0, 1, 5, 2, 2}) {
+    const int64_t time_ns = 1000000000 + i * 33000000;
+    bag.add("/color/image_raw", sensor + "Image", 1,
+            test::rosImage(time_ns, "camera", kSide, kSide, "rgb8", test::Bytes(kSide * kSide * 3, 7)));
+    bag.add("/depth/image_raw", sensor + "Image", 1,
+            test::rosImage(time_ns, "camera", kSide, kSide, "16UC1", test::Bytes(kSide * kSide * 2, 7)));
+    bag.add("/odom", "nav_msgs/msg/Odometry", 1,
+            test::rosOdometry(time_ns, {"odom", "base_link", {{1, 0, 0, 0}, {0, 0, 0}}}));
+  }
+  folder.write("bag.mcap", bag.bytes(test::RosBag::Chunks::kStored));
+  for (const char *name : {"walk.mcap", "walk", "walk.raw"}) {
+    const Answer converted = runCommand("convert " + (folder / "bag.mcap") + " " + (folder / name));
+    EXPECT_EQ(converted.exit_code, kExitDone) << converted.err;
+    for (const char *sentence :
+         {"the times of /color/image_raw go back once", "left out: 2 images, whose times are not after",
+          "it has no poses: odometry or tf moves base_link"})
+      EXPECT_THAT(converted.err, HasSubstr(sentence)) << name;
+  }
 }
 
 TEST(Convert, KeepsAccelerationsInAFile) {
