@@ -84,6 +84,18 @@ TEST(Record3dMetadata, WhatIsWrongIsNamed) {
   EXPECT_THAT(refused(R"({"K": [1, 0, 0, 0, 1, 0, 1, 1, 1], "w": 4, "h": 4, "poses": []})"), HasSubstr("poses: "));
 }
 
+// A zip of some kilobytes holds any of these.
+TEST(Record3dMetadata, WhatWouldFillTheMemoryIsRefused) {
+  const auto refused = [](const std::string &text) {
+    return refusal([&] { recording::record3dMetadataFrom(text); });
+  };
+  EXPECT_THAT(refused("{\"poses\": " + std::string(100, '[')), HasSubstr("metadata: is nested too deeply"));
+  std::string ones = "{\"poses\": [1";
+  for (int i = 0; i < 5000000; ++i) ones += ",1";
+  EXPECT_THAT(refused(ones + "]}"), HasSubstr("metadata: holds more than an hour of frames has"));
+  EXPECT_THAT(refused(std::string((64 << 20) + 1, ' ')), HasSubstr("metadata: is over 64 MiB"));
+}
+
 TEST(FilesThatAreNotRead, SayTheWayOut) {
   const test::TempFolder folder;
   const std::pair<std::string, const char *> files[] = {{"#ROSBAG V1.2\n", "rosbag fix"},

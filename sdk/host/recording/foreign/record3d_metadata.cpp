@@ -18,10 +18,23 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kMostFrames = 1000000;  // four hours
+// An hour of 60 frames a second has 250 bytes and 14 values a frame; a value takes many times its bytes in memory.
+constexpr size_t kMostBytes = size_t{1} << 26, kMostValues = 5000000;
+constexpr int kDeepest = 4;  // a list of poses has three levels
 
 [[noreturn]] void failKey(const std::string &key, const std::string &cause) {
   throw Failure(SPHC_E_ARGUMENT, key + ": " + cause + "; export the recording again");
+}
+
+json parseLimited(std::string_view text) {
+  if (text.size() > kMostBytes) failKey("metadata", "is over " + std::to_string(kMostBytes >> 20) + " MiB");
+  size_t values = 0;
+  const auto watch = [&values](int depth, json::parse_event_t, const json &) {
+    if (depth > kDeepest) failKey("metadata", "is nested too deeply");
+    if (++values > kMostValues) failKey("metadata", "holds more than an hour of frames has");
+    return true;
+  };
+  return json::parse(text.begin(), text.end(), watch, false);
 }
 
 std::vector<double> numbersOf(const json &value, size_t count, const std::string &key) {
@@ -40,7 +53,7 @@ double positiveOf(const json &root, const char *key) {
 
 const json &listOf(const json &root, const char *key) {
   const auto found = root.find(key);
-  if (found == root.end() || !found->is_array() || found->empty() || found->size() > kMostFrames)
+  if (found == root.end() || !found->is_array() || found->empty())
     failKey(key, "expected a list with an entry for every frame");
   return *found;
 }
@@ -93,7 +106,7 @@ std::vector<int64_t> timesOf(const json &root, size_t count) {
 }  // namespace
 
 Record3dMetadata record3dMetadataFrom(std::string_view text) {
-  const json root = json::parse(text.begin(), text.end(), nullptr, false);
+  const json root = parseLimited(text);
   if (!root.is_object()) failKey("metadata", "is no JSON object");
   Record3dMetadata metadata;
   metadata.params = paramsOf(root);
