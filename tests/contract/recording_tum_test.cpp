@@ -119,6 +119,26 @@ TEST_F(Tum, LeavesBadPosesOut) {
   EXPECT_EQ(info.bad_pose_count, 3u);
 }
 
+TEST_F(Tum, OfPosesOfOneTimeTheFirstCountsAndTheOthersAreCounted) {
+  folder_.write("groundtruth.txt", "1 5 0 0 0 0 0 1\n1 6 0 0 0 0 0 1\n1 7 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  const OpenReplay replay = open();
+  sphc_replay_info info{};
+  info.struct_size = sizeof info;
+  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  EXPECT_EQ(info.pose_count, 2u);
+  EXPECT_EQ(info.bad_pose_count, 2u);
+  sphc_rigid pose;
+  ASSERT_EQ(sphc_replay_pose_at(replay.get(), 1000000000, &pose), SPHC_OK);
+  EXPECT_EQ(pose.t_m[0], 5);
+}
+
+TEST_F(Tum, APoseOfMoreNumbersIsOfAnotherFormat) {
+  folder_.write("groundtruth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 0\n");
+  expectRefused(SPHC_E_ARGUMENT,
+                "groundtruth.txt, line 1: has more than 8 numbers, as KITTI's 12 without a time; "
+                "expected \"seconds tx ty tz qx qy qz qw\"");
+}
+
 TEST_F(Tum, DoesWithoutGroundTruth) {
   std::filesystem::remove(folder_ / "groundtruth.txt");
   const OpenReplay replay = open();

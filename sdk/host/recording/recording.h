@@ -98,7 +98,7 @@ void selectFrames(const Selection &selection, int64_t tolerance_ns, Recording &r
 std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns);
 
 // Poses that stand by themselves, in the TUM format: a line "seconds tx ty tz qx qy qz qw" each.  Lines without a
-// finite pose are counted.  Throws Failure.
+// finite pose are counted, and so are those of a time that was.  Throws Failure.
 PoseTrack readTumPoses(const std::filesystem::path &file, uint32_t *bad_count);
 
 // The layouts.

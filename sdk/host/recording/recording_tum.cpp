@@ -96,10 +96,14 @@ PoseTrack readTumPoses(const fs::path &path, uint32_t *bad_count) {
     if (!parseSeconds(takeWord(line), time_ns)) return false;
     for (double &field : value)
       if (!parseDouble(takeWord(line), field)) return false;
+    if (!trimmed(line).empty())
+      failLine(path, number,
+               "has more than 8 numbers, as KITTI's 12 without a time; expected \"seconds tx ty tz qx qy qz qw\"");
     if (time_ns < last_ns) failLine(path, number, "time decreases; sort the list");
     last_ns = time_ns;
     sphc_rigid pose{{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
-    if (isFinite(pose) && host::normalizeQuaternion(pose.q_wxyz, 1e-2))
+    const bool is_first = poses.poses().empty() || poses.poses().back().time_ns < time_ns;  // of its time
+    if (is_first && isFinite(pose) && host::normalizeQuaternion(pose.q_wxyz, 1e-2))
       poses.add(time_ns, pose);
     else
       ++*bad_count;
