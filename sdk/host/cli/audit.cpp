@@ -127,6 +127,7 @@ RecordingOptions photosOf(const AuditOptions &options) {
   RecordingOptions photos = options.photos;
   if (photos.folder.empty()) photos.folder = options.recording.folder;
   photos.calibration = options.recording.calibration;
+  photos.pose_gap_ms = options.recording.pose_gap_ms;
   return photos;
 }
 

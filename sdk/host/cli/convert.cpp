@@ -300,6 +300,8 @@ int convert(ConvertOptions options, const Console &console) {
     throw UsageError("--jpeg is of an MCAP file; give the new recording a name that ends in .mcap");
   if (options.depth_codec && options.target != Target::kMcap)
     throw UsageError("--depth-codec is of an MCAP file; give the new recording a name that ends in .mcap");
+  if (!options.isByFrame() && options.in.pose_gap_ms != RecordingOptions().pose_gap_ms)
+    throw UsageError("--pose-gap-ms is of raw and 7scenes, whose frames have a pose each; leave it out");
   options.recorder.depth_codec = options.depth_codec.value_or(options.recorder.depth_codec);
   FileUse files(false);
   files.reads("the recording", options.in.folder);

@@ -105,7 +105,7 @@ void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader
   if (poses == 0 || (!options.odometry && options.owner_notes.empty())) return;
   for (uint32_t i = 0; i < reader.frameCount(); ++i)
     if (reader.worldFromCamera(i)) return;
-  console.warn("note: none of " + counted(poses, "pose") + kIsOfOtherTimes);
+  console.warn("note: none of " + counted(poses, "pose") + ofOtherTimes(reader, reader.recording().poses));
 }
 
 Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/common/progress.h"
 #include "host/import/upright.h"
@@ -32,13 +33,13 @@ class Steps {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-std::optional<sphc_rigid> poseOf(const recording::PoseTrack &path, int64_t time_ns) {
-  return path.at(time_ns, recording::ReaderOptions().pose_gap_ns);
+// Those of the recording, or of its file of poses.
+const recording::PoseTrack &toldPoses(const MapOptions &options, const MappedRecording &recording) {
+  return options.told.empty() ? recording.reader->recording().poses : recording.told;
 }
 
-// What the recording, or its file of poses, tells of a time.
 std::optional<sphc_rigid> toldAt(const MapOptions &options, const MappedRecording &recording, int64_t time_ns) {
-  return options.told.empty() ? recording.reader->worldFromCameraAt(time_ns) : poseOf(recording.told, time_ns);
+  return toldPoses(options, recording).at(time_ns, recording.reader->poseGapNs());
 }
 
 void tell(const MapOptions &options, const MappedRecording &recording, Walk *walk) {
@@ -53,7 +54,12 @@ bool hasToldPose(const MapOptions &options, const MappedRecording &recording) {
   return false;
 }
 
-[[noreturn]] void refuseTold(const MapOptions &options) {
+[[noreturn]] void refuseTold(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
+  for (const MappedRecording &recording : recordings) {
+    const recording::PoseTrack &poses = toldPoses(options, recording);
+    const std::string apart = tooFarApart(*recording.reader, poses);
+    if (!apart.empty()) throw std::runtime_error("none of " + counted(poses.poses().size(), "pose") + apart);
+  }
   throw std::runtime_error(
       options.told.empty() ? "--poses: the recording holds no pose; give --poses-from FILE, or leave --poses out"
                            : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
@@ -68,15 +74,15 @@ void checkRecordings(const MapOptions &options, const std::vector<MappedRecordin
     is_told = is_told || recording.is_told;
   }
   checkObservations(options.import, frames);
-  if (options.trust.use != PoseUse::kNone && !is_told) refuseTold(options);
+  if (options.trust.use != PoseUse::kNone && !is_told) refuseTold(options, recordings);
 }
 
 // The frames that are mapped may be none of those that were told.
-void checkTold(const MapOptions &options, const Walk &walk) {
+void checkTold(const MapOptions &options, const MapOutcome &outcome) {
   if (options.trust.use == PoseUse::kNone) return;
-  for (const WalkFrame &frame : walk.keyframes)
+  for (const WalkFrame &frame : outcome.walk.keyframes)
     if (frame.told_world_from_camera) return;
-  refuseTold(options);
+  refuseTold(options, outcome.recordings);
 }
 
 // Says what of the recordings and of their poses takes no part.
@@ -195,9 +201,9 @@ ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) 
   std::vector<RgbdSource> sources;
   for (size_t r = 0; r < outcome.recordings.size(); ++r) {
     const MappedRecording &recording = outcome.recordings[r];
-    sources.push_back({recording.reader.get(),
-                       [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
-                       [&, r](int64_t time_ns) { return poseOf(paths[r], time_ns); }});
+    sources.push_back(
+        {recording.reader.get(), [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
+         [&, r](int64_t time_ns) { return paths[r].at(time_ns, outcome.recordings[r].reader->poseGapNs()); }});
   }
   ImportedPoints points = importRecordings(sources, options.import, describeSelection(options.of_each));
   points.model.band = options.band;
@@ -232,7 +238,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   noteAll(options, outcome.recordings, console);
   checkRecordings(options, outcome.recordings);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
-  checkTold(options, outcome.walk);
+  checkTold(options, outcome);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
   outcome.mapped = mapOrSayWhy(options, &outcome, &steps, console);
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);

@@ -1,9 +1,11 @@
 #include "host/frames/recording.h"
 
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
 #include "host/base/counted.h"
+#include "host/base/median.h"
 #include "host/base/usage_error.h"
 
 namespace sphc::host {
@@ -20,6 +22,7 @@ recording::ReaderOptions readerOptions(const RecordingOptions &options) {
   chosen.calibration = options.calibration;
   chosen.poses = options.poses;
   chosen.selection = {options.first, options.last, options.step};
+  chosen.pose_gap_ns = int64_t{options.pose_gap_ms} * 1000000;
   return chosen;
 }
 
@@ -48,6 +51,29 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
   throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
                            describeSelection(options) +
                            ": check --first, --last, --step, and that depth images are there");
+}
+
+std::optional<uint64_t> poseGapOf(const RecordingReader &reader, const recording::PoseTrack &poses,
+                                  uint32_t index) {
+  const int64_t time_ns = reader.colorOf(index).time_ns;
+  return poses.at(time_ns, reader.poseGapNs()) ? std::nullopt : poses.gapAt(time_ns);
+}
+
+std::string tooFarApart(const RecordingReader &reader, const recording::PoseTrack &poses) {
+  std::vector<double> gaps_ms;
+  for (uint32_t i = 0; i < reader.frameCount(); ++i)
+    if (const auto gap_ns = poseGapOf(reader, poses, i)) gaps_ms.push_back(1e-6 * static_cast<double>(*gap_ns));
+  if (gaps_ms.empty()) return "";
+  const double gap_ms = median(gaps_ms);
+  return " is near enough in time to a frame that was chosen: they are " + std::to_string(std::llround(gap_ms)) +
+         " ms apart there, and are interpolated over at most " + std::to_string(reader.poseGapNs() / 1000000) +
+         (gap_ms <= kMostPoseGapMs ? " ms; --pose-gap-ms takes more" : " ms; record poses more often");
+}
+
+std::string ofOtherTimes(const RecordingReader &reader, const recording::PoseTrack &poses) {
+  const std::string apart = tooFarApart(reader, poses);
+  if (!apart.empty()) return apart;
+  return " is of the time of a frame that was chosen; are the times of poses and images in seconds of one clock?";
 }
 
 void refuseUnreadable() {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "host/base/counted.h"
+#include "host/base/median.h"
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
@@ -92,14 +93,15 @@ class Census {
     for (int i = 0; i < 4; ++i) moved_ = moved_ || std::abs(pose.q_wxyz[i] - first_.q_wxyz[i]) > kSamePose;
     for (int i = 0; i < 3; ++i) moved_ = moved_ || std::abs(pose.t_m[i] - first_.t_m[i]) > kSamePose;
   }
-  // `told_poses`: of the recordings, whether a frame has their times or not.
-  void check(const RgbdImportSummary &s, uint64_t told_poses) const {
+  // `told`: one of the recordings whose poses, `told_poses` in all, would count if a frame had their times.
+  void check(const RgbdImportSummary &s, uint64_t told_poses, const recording::RecordingReader *told) const {
     const auto count = [](uint64_t n) { return std::to_string(n); };
     if (s.frames_used == 0 && s.frames_unreadable > 0)
       throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
                                " with a pose the first says: " + s.first_unreadable);
     if (s.frames_used == 0 && told_poses > 0)
-      throw std::runtime_error("none of " + counted(told_poses, "pose") + kIsOfOtherTimes);
+      throw std::runtime_error("none of " + counted(told_poses, "pose") +
+                               ofOtherTimes(*told, told->recording().poses));
     if (s.frames_used == 0)
       throw std::runtime_error(
           "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt, "
@@ -124,12 +126,15 @@ class Importer {
 
   PointModel import(const std::vector<RgbdSource> &recordings) {
     uint64_t told_poses = 0;
+    const recording::RecordingReader *told = nullptr;
     for (const RgbdSource &source : recordings) {
       total_ += source.reader->frameCount();
-      if (!source.poses) told_poses += source.reader->recording().poses.poses().size();
+      if (source.poses) continue;
+      told_poses += source.reader->recording().poses.poses().size();
+      told = source.reader;
     }
     for (const RgbdSource &source : recordings) add(source);
-    census_.check(*summary_, told_poses);
+    census_.check(*summary_, told_poses, told);
     std::vector<TrackedPoint> points = tracks_.points();
     if (!options_.keep_moving) summary_->fixed_in_image = fixed_.dropFrom(&points);
     summary_->moving = dropMoving(views_, &points);
@@ -171,7 +176,7 @@ class Importer {
     std::string why;
     const std::optional<sphc_localizer_frame> frame = pose ? source.reader->tryRead(i, &why) : std::nullopt;
     if (!pose) {
-      ++summary_->frames_without_pose;
+      addFrameWithoutPose(source, i);
     } else if (!frame) {
       if (++summary_->frames_unreadable == 1) summary_->first_unreadable = why;
     } else {
@@ -185,6 +190,14 @@ class Importer {
       place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, *rows,
             describer);
     }
+  }
+
+  void addFrameWithoutPose(const RgbdSource &source, uint32_t i) {
+    ++summary_->frames_without_pose;
+    if (source.poses) return;
+    const auto gap_ns = poseGapOf(*source.reader, source.reader->recording().poses, i);
+    if (gap_ns && *gap_ns <= uint64_t{kMostPoseGapMs} * 1000000)
+      summary_->pose_gaps_ms.push_back(1e-6 * static_cast<double>(*gap_ns));
   }
 
   static std::optional<sphc_rigid> poseAt(const RgbdSource &source, int64_t time_ns) {
@@ -237,10 +250,23 @@ PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImpor
   return Importer(options, progress, summary).import(recordings);
 }
 
+namespace {
+
+// Why so many frames have no pose; empty where it is not the distance of poses.
+std::string betweenPoses(const std::vector<double> &gaps_ms) {
+  if (gaps_ms.empty()) return "";
+  return ": poses around " + std::to_string(gaps_ms.size()) + " of them are " +
+         std::to_string(std::llround(median(gaps_ms))) +
+         " ms apart, too far to interpolate; --pose-gap-ms takes more";
+}
+
+}  // namespace
+
 std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
   if (summary.frames_without_pose)
-    sentences.push_back(counted(summary.frames_without_pose, "frame") + " without a pose took no part");
+    sentences.push_back(counted(summary.frames_without_pose, "frame") + " without a pose took no part" +
+                        betweenPoses(summary.pose_gaps_ms));
   if (summary.frames_unreadable)
     sentences.push_back(counted(summary.frames_unreadable, "frame") +
                         " could not be read and took no part; the first: " + summary.first_unreadable);

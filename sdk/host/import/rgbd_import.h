@@ -64,11 +64,12 @@ struct PoseScalePart {
 
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
-  uint32_t frames_empty = 0;      // of those used, without a keypoint that has depth
-  uint32_t frames_apart = 0;      // of those used, whose depth was taken elsewhere, nobody knows where
-  uint32_t frames_bent = 0;       // of those used, whose rows stay as they are for lack of poses
-  FaultCounts frames_with_fault;  // of those used
-  std::string first_unreadable;   // which, and why
+  std::vector<double> pose_gaps_ms;  // of those without a pose that lie between two: how far these are apart
+  uint32_t frames_empty = 0;         // of those used, without a keypoint that has depth
+  uint32_t frames_apart = 0;         // of those used, whose depth was taken elsewhere, nobody knows where
+  uint32_t frames_bent = 0;          // of those used, whose rows stay as they are for lack of poses
+  FaultCounts frames_with_fault;     // of those used
+  std::string first_unreadable;      // which, and why
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
   uint32_t fixed_in_image = 0;  // of the points that were dropped, those that went along with the camera

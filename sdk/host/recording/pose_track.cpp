@@ -41,6 +41,13 @@ std::optional<sphc_rigid> PoseTrack::at(int64_t time_ns, int64_t gap_ns) const {
   return (to_before < to_after ? before : after)->pose;
 }
 
+std::optional<uint64_t> PoseTrack::gapAt(int64_t time_ns) const {
+  const auto after = std::upper_bound(poses_.begin(), poses_.end(), time_ns,
+                                      [](int64_t time, const TimedPose &pose) { return time < pose.time_ns; });
+  if (after == poses_.begin() || after == poses_.end()) return {};
+  return timeBetween((after - 1)->time_ns, after->time_ns);
+}
+
 sphc_rigid interpolate(const sphc_rigid &from, const sphc_rigid &to, double s) {
   double cosine = dot4(from.q_wxyz, to.q_wxyz);
   const double sign = cosine < 0.0 ? -1.0 : 1.0;  // q and -q are one rotation: take the nearer

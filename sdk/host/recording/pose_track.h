@@ -20,6 +20,8 @@ class PoseTrack {
   void add(int64_t time_ns, const sphc_rigid &world_from_camera);
   // Exact at a recorded time, else between neighbours at most `gap_ns` apart, else of a time at most 1 us away.
   std::optional<sphc_rigid> at(int64_t time_ns, int64_t gap_ns) const;
+  // How far apart the neighbours of a time are; none before the first and after the last.
+  std::optional<uint64_t> gapAt(int64_t time_ns) const;
   const std::vector<TimedPose> &poses() const { return poses_; }
 
  private:

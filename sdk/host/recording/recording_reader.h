@@ -29,6 +29,8 @@ class RecordingReader {
   const Recording &recording() const { return recording_; }
   const sphc_rig &calibration() const { return calibration_; }
 
+  int64_t poseGapNs() const { return pose_gap_ns_; }
+
   uint32_t frameCount() const { return static_cast<uint32_t>(frames_.size()); }
   const RecordedImage &colorOf(uint32_t index) const { return recording_.color[frames_.at(index).color]; }
   const RecordedImage &depthOf(uint32_t index) const { return recording_.depth[frames_.at(index).depth]; }

@@ -215,6 +215,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   CLI::Option *recording = addRecordingOptions(app, &source->recording)->required(false);
   addPosesOption(app, &source->recording)->needs(recording);
+  app->get_option("--pose-gap-ms")->needs(recording);
   addMappingOptions(app, &source->import);
   addColmapOptions(app, source);
   auto *model =

@@ -114,7 +114,8 @@ Findings findingsOfPoses(RecordingReader *reader) {
     return {{Grade::kDoubtful, "poses", "there are none, and build needs them; spherecloud map finds them"}};
   const std::vector<bool> chosen = framesToCompare(*reader);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
-    return {{Grade::kWrong, "poses", "none of " + counted(poses, "pose") + kIsOfOtherTimes}};
+    return {{Grade::kWrong, "poses",
+             "none of " + counted(poses, "pose") + ofOtherTimes(*reader, reader->recording().poses)}};
   RgbdImportSummary summary;
   try {
     importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, {}, {}, &summary);

@@ -25,6 +25,12 @@ void addFrameOptions(CLI::App *app, RecordingOptions *options) {
       ->type_name("N")
       ->transform(wholeFrom(1, UINT32_MAX))
       ->group(kGroup);
+  app->add_option("--pose-gap-ms", options->pose_gap_ms,
+                  "Poses are interpolated between recorded ones at most so far apart")
+      ->capture_default_str()
+      ->type_name("MS")
+      ->transform(wholeFrom(0, kMostPoseGapMs))
+      ->group(kGroup);
 }
 
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {

@@ -576,6 +576,39 @@ TEST_F(FilesTest, OfARecordingWithoutPosesNoneIsSpokenOf) {
   EXPECT_THAT(answer.err, HasSubstr("--align: the recording holds no poses, so no errors are known"));
 }
 
+// Of three frames the middle one has no pose, and its neighbours are 0.67 s apart.
+TEST_F(FilesTest, PosesThatComeSeldomAreInterpolatedWhereItIsAsked) {
+  fs::copy(at("walk"), at("seldom"), fs::copy_options::recursive);
+  std::istringstream lines(fileText(at("walk/groundtruth.txt")));
+  std::string kept, line;
+  for (int poses = 0; std::getline(lines, line);)
+    if (line[0] == '#' || ++poses != 2) kept += line + "\n";
+  put("seldom/groundtruth.txt", kept);
+  const std::string seldom = " -r " + at("seldom"), middle = seldom + " --first 1 --last 1",
+                    build = "build --json -m " + at("seldom.sphc") + " --ledger " + at("seldom.ledger");
+  const std::string cause =
+      "none of 2 poses is near enough in time to a frame that was chosen: they are 667 ms apart "
+      "there, and are interpolated over at most 50 ms; --pose-gap-ms takes more";
+  for (const std::string &command :
+       {build + middle, "localize -m " + at("room.sphc") + " --owner-note " + at("room.sphc.owner.json") + middle,
+        "map --poses odometry --model " + at("seldom.model") + middle})
+    EXPECT_THAT(runCommand(command).err, HasSubstr(cause)) << command;
+  const Answer two = runCommand(build + seldom);
+  ASSERT_EQ(two.exit_code, kExitDone) << two.err;
+  EXPECT_EQ(nlohmann::json::parse(two.out)["frames_used"], 2);
+  EXPECT_THAT(two.err,
+              HasSubstr("1 frame without a pose took no part: poses around 1 of them are 667 ms apart, too "
+                        "far to interpolate; --pose-gap-ms takes more"));
+  const Answer all = runCommand(build + seldom + " --force --pose-gap-ms 700");
+  ASSERT_EQ(all.exit_code, kExitDone) << all.err;
+  EXPECT_EQ(nlohmann::json::parse(all.out)["frames_used"], 3);
+  EXPECT_THAT(runCommand("convert " + at("seldom") + " " + at("seldom.mcap") + " --pose-gap-ms 700").err,
+              HasSubstr("--pose-gap-ms is of raw and 7scenes"));
+  EXPECT_EQ(
+      runCommand("build -m " + at("x.sphc") + " --model " + at("walk.model") + " --pose-gap-ms 700").exit_code,
+      kExitUsage);
+}
+
 TEST_F(FilesTest, PosesOfAFileAreTakenInPlaceOfTheRecordings) {
   fs::copy(at("walk"), at("untold"), fs::copy_options::recursive);
   fs::remove(at("untold/groundtruth.txt"));

@@ -47,6 +47,31 @@ TEST(Recording, AChosenFrameKeepsTheDepthThatItHasAmongAll) {
   EXPECT_EQ(openRecording(options)->frameCount(), 1u);
 }
 
+// Frames at 1.00, 1.01 and 1.02 s.
+TEST(Recording, ItIsSaidWhyNoPoseIsOfAFrame) {
+  const test::TempFolder folder;
+  contract::writeTinyRecording(folder.path().string(), 3);
+  folder.write("rgb.txt", "1.00 rgb/000000.png\n1.01 rgb/000001.png\n1.02 rgb/000002.png\n");
+  folder.write("depth.txt", "1.00 depth/000000.png\n1.01 depth/000001.png\n1.02 depth/000002.png\n");
+  RecordingOptions options;
+  options.folder = folder.path().string();
+  const auto why = [&](const char *poses) {
+    folder.write("groundtruth.txt", poses);
+    const auto reader = openRecording(options);
+    return ofOtherTimes(*reader, reader->recording().poses);
+  };
+  EXPECT_THAT(why("5 0 0 0 0 0 0 1\n5.1 0 0 0 0 0 0 1\n"), testing::HasSubstr("in seconds of one clock?"));
+  const char *const seldom = "0.98 0 0 0 0 0 0 1\n1.047 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(why(seldom),
+              testing::HasSubstr("they are 67 ms apart there, and are interpolated over at most 50 ms; "
+                                 "--pose-gap-ms takes more"));
+  EXPECT_THAT(why("0 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n"),
+              testing::HasSubstr("they are 3000 ms apart there, and are interpolated over at most 50 ms; record"));
+  folder.write("groundtruth.txt", seldom);
+  options.pose_gap_ms = 67;
+  EXPECT_TRUE(openRecording(options)->worldFromCamera(1));
+}
+
 TEST(Recording, AStepOfZeroChoosesNothing) {
   RecordingOptions options;
   options.step = 0;
