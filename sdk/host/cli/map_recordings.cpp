@@ -9,6 +9,7 @@
 #include "host/base/usage_error.h"
 #include "host/cli/common/progress.h"
 #include "host/import/upright.h"
+#include "host/mapping/told_pieces.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/trajectory.h"
 
@@ -43,9 +44,12 @@ std::optional<sphc_rigid> toldAt(const MapOptions &options, const MappedRecordin
 }
 
 void tell(const MapOptions &options, const MappedRecording &recording, Walk *walk) {
+  const ToldPieces pieces((options.told.empty() ? recording.reader->recording().poses : recording.told).poses());
   for (WalkFrame &frame : walk->keyframes)
-    if (const std::optional<sphc_rigid> told = toldAt(options, recording, frame.time_ns))
+    if (const std::optional<sphc_rigid> told = toldAt(options, recording, frame.time_ns)) {
       frame.told_world_from_camera = rigidFromC(*told);
+      frame.told_piece = pieces.at(frame.time_ns);
+    }
 }
 
 bool hasToldPose(const MapOptions &options, const MappedRecording &recording) {
@@ -242,6 +246,9 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
   outcome.mapped = mapOrSayWhy(options, &outcome, &steps, console);
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
+  const std::vector<bool> &alone = outcome.mapped.by_told_alone;
+  outcome.by_told_alone =
+      runsOf(outcome.walk, {alone.begin(), alone.end()}, true, outcome.mapped.world_from_camera);
   takePoses(&outcome);
   standUpright(&outcome);
   if (options.score)

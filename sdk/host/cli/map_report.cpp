@@ -156,6 +156,17 @@ void warnOfPoses(const MapOutcome &outcome, const Console &console) {
                  (2 * m.told_wrong > m.told ? kAskOfPoses : ""));
 }
 
+// No image says whether they are right there.
+void noteByToldAlone(const MapOutcome &outcome, const Clock &clock, const Console &console) {
+  const std::vector<Stretch> &alone = outcome.by_told_alone;
+  if (alone.empty()) return;
+  console.warn(std::string("note: only the ") +
+               (outcome.use == PoseUse::kOdometry ? "odometry joins " : "poses join ") + clock.timesOf(alone) +
+               " (" + counted(framesOf(alone), "frame") +
+               ") to the rest of the map, and no image says whether that is right; look at the map there, or walk "
+               "from there to the rest once more, so that images join them");
+}
+
 void warnOfTruth(const MapOutcome &outcome, const Console &console) {
   for (const MappedRecording &recording : outcome.recordings) {
     const auto &s = recording.score;
@@ -287,6 +298,7 @@ void warnOfMap(const MapOutcome &outcome, const Console &console) {
   noteUnreadable(outcome, console);
   warnOfResiduals(outcome, console);
   warnOfPoses(outcome, console);
+  noteByToldAlone(outcome, clock, console);
   if (!outcome.vertical.doubt.empty())
     console.warn("note: the accelerations do not tell the vertical: " + outcome.vertical.doubt);
   warnOfTruth(outcome, console);
@@ -320,7 +332,10 @@ nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
                         {"used", outcome.vertical.isKnown()}};
   for (const std::vector<Stretch> &part : outcome.stretches.apart) json["apart"].push_back(clock.jsonOf(part));
   if (outcome.use != PoseUse::kNone)
-    json["poses"] = {{"told", m.told}, {"off", m.told_wrong}, {"used", !m.is_unbelieved}};
+    json["poses"] = {{"told", m.told},
+                     {"off", m.told_wrong},
+                     {"used", !m.is_unbelieved},
+                     {"alone", clock.jsonOf(outcome.by_told_alone)}};
   json["recordings"] = nlohmann::ordered_json::array();
   for (const MappedRecording &recording : outcome.recordings) {
     nlohmann::ordered_json one = {{"recording", recording.name},

@@ -36,6 +36,7 @@ struct MapOutcome {
   Walk walk;
   MappedWalk mapped;
   Stretches stretches;
+  std::vector<Stretch> by_told_alone;  // MappedWalk::by_told_alone
   std::vector<MappedRecording> recordings;
   MeasuredVertical vertical;  // of recordings with inertial data
   ImportedPoints import;

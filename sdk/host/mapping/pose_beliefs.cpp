@@ -62,7 +62,8 @@ PoseBeliefs::PoseBeliefs(const std::vector<WalkFrame> &frames, const PoseTrust &
   std::optional<uint32_t> before;
   for (uint32_t i = 0; i < frames.size(); ++i) {
     if (!told_[i]) continue;
-    if (before && frames[*before].recording == frames[i].recording) {
+    if (before && frames[*before].recording == frames[i].recording &&
+        frames[*before].told_piece == frames[i].told_piece) {
       const Rigid b_from_a = told_[i]->inverse() * *told_[*before];
       const double s = seconds(frames[i].time_ns - frames[*before].time_ns);
       told_steps_.push_back(stepOf({*before, i}, b_from_a, trust));

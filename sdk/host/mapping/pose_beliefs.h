@@ -30,7 +30,7 @@ class PoseBeliefs {
 
   // All that was told, whether it is believed or not; empty of use kNone.
   const FramePoses &told() const { return told_; }
-  // Odometry: links of neighbouring frames, without matches.
+  // Odometry: links of neighbouring frames of a piece (told_pieces.h), without matches.
   const std::vector<FrameLink> &steps() const { return steps_; }
   // Approximate: the poses that are believed.  Where there is one, the world of the map is the recording's.
   const FramePoses &anchors() const { return anchors_; }

@@ -24,7 +24,8 @@ Hints commonHints(const Walk &walk, uint32_t first, uint32_t last) {
   return common;
 }
 
-// Runs of keyframes with this label.
+}  // namespace
+
 std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &labels, uint32_t label,
                             const FramePoses &poses) {
   std::vector<Stretch> runs;
@@ -42,8 +43,6 @@ std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &label
   }
   return runs;
 }
-
-}  // namespace
 
 Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts, const FramePoses &poses) {
   const uint32_t count = parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;

@@ -21,6 +21,10 @@ struct Stretches {
   std::vector<Stretch> left_out;  // connected with nothing, or with next to nothing
 };
 
+// Of keyframes with this label, in order; `labels`: one for each keyframe, `poses`: theirs.
+std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &labels, uint32_t label,
+                            const FramePoses &poses);
+
 // `parts`: a label for each keyframe, 0 for those of the map; `poses`: theirs.
 Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts, const FramePoses &poses);
 

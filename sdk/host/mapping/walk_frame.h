@@ -37,6 +37,7 @@ struct WalkFrame {
   int64_t time_ns = 0;     // of the colour image
   // As the recording tells it; for those alone who ask for it (pose_beliefs.h).
   std::optional<Rigid> told_world_from_camera;
+  uint32_t told_piece = 0;              // of the told poses, the one that this is of (told_pieces.h)
   std::vector<SeenPoint> points;        // strongest keypoint first
   std::vector<Descriptor> descriptors;  // of the same
   Hints hints = 0;                      // why the frame may be worth little

@@ -135,6 +135,17 @@ class WalkMapper {
            world_from_adjusted;
   }
 
+  std::vector<bool> byToldAlone() const {
+    const FramePoses &poses = adjusted_.world_from_camera;
+    const std::vector<uint32_t> stretch = connectedParts(frames_.size(), links_);
+    uint32_t largest = UINT32_MAX;  // labels are in order of size
+    for (size_t i = 0; i < poses.size(); ++i)
+      if (poses[i]) largest = std::min(largest, stretch[i]);
+    std::vector<bool> is_alone(poses.size());
+    for (size_t i = 0; i < poses.size(); ++i) is_alone[i] = poses[i] && stretch[i] != largest;
+    return is_alone;
+  }
+
   bool isAnyTold(const FramePoses &poses) const {
     for (size_t i = 0; i < poses.size(); ++i)
       if (poses[i] && beliefs_.told()[i]) return true;
@@ -158,6 +169,7 @@ class WalkMapper {
     const Rigid world_from_adjusted = worldFromAdjusted(**first);
     for (const auto &pose : poses)
       mapped_.world_from_camera.push_back(pose ? std::make_optional(world_from_adjusted * *pose) : std::nullopt);
+    mapped_.by_told_alone = byToldAlone();
     for (const FrameLink &link : links_)
       if (poses[link.frames.a]) ++(link.is_loop ? mapped_.loops : mapped_.links);
     mapped_.depth = prior_;

@@ -24,6 +24,8 @@ struct MappedWalk {
   // Of the keyframes.  The world is the first one that has a pose, or what the recording told.
   FramePoses world_from_camera;
   std::vector<uint32_t> parts;  // of each keyframe, 0 for the largest; those of part 0 have poses
+  // Of each keyframe: told poses, or steps, alone join it to the largest stretch of part 0 that links connect.
+  std::vector<bool> by_told_alone;
   size_t links = 0, loops = 0;  // between keyframes near in time, and between others
   size_t contradicting = 0;     // links that the others contradicted; left out
   AdjustmentSummary at_first;   // residuals before the second round of pairs, with the calibration held

@@ -220,8 +220,8 @@ TEST_F(MapTest, ACalibrationThatIsOffIsRefined) {
   EXPECT_THAT(runCommand(map).err, HasSubstr("--force"));
 }
 
-// Adds the images of another walk, 100 s later.
-void append(const std::string &walk, const std::string &other) {
+// Adds the images of another walk, so many seconds later.
+void append(const std::string &walk, const std::string &other, double later_s) {
   for (const std::string kind : {"rgb", "depth"}) {
     std::ifstream from(other + "/" + kind + ".txt");
     std::ofstream to(walk + "/" + kind + ".txt", std::ios::app);
@@ -230,16 +230,24 @@ void append(const std::string &walk, const std::string &other) {
       const size_t space = line.find(' ');
       const std::string name = kind + "/other_" + fs::path(line.substr(space + 1)).filename().string();
       fs::copy(other + "/" + line.substr(space + 1), walk + "/" + name);
-      to << std::to_string(std::stod(line) + 100) << " " << name << "\n";
+      to << std::to_string(std::stod(line) + later_s) << " " << name << "\n";
     }
   }
+}
+
+// And its poses.
+void appendPoses(const std::string &walk, const std::string &other, double later_s) {
+  std::ifstream from(other + "/groundtruth.txt");
+  std::ofstream to(walk + "/groundtruth.txt", std::ios::app);
+  for (std::string line; std::getline(from, line);)
+    if (line[0] != '#') to << std::to_string(std::stod(line) + later_s) << line.substr(line.find(' ')) << "\n";
 }
 
 TEST_F(MapTest, PartsThatNeverMetAreNamedAndTheStatusSaysSo) {
   const Answer other = runCommand("simulate --frames 6 --rate 5 --seed 9 --out " + at("other"));
   ASSERT_EQ(other.exit_code, kExitDone) << other.err;
   fs::copy(at("walk"), at("both"), fs::copy_options::recursive);
-  append(at("both"), at("other"));
+  append(at("both"), at("other"), 100);
   const Answer mapped = runCommand("map -r " + at("both") + " --model " + at("both.model") + " --json");
   EXPECT_EQ(mapped.exit_code, kExitWalkApart) << mapped.err;
   EXPECT_THAT(mapped.err, HasSubstr("10 of 16 frames: 0.0 to 1.8 s"));
@@ -249,6 +257,24 @@ TEST_F(MapTest, PartsThatNeverMetAreNamedAndTheStatusSaysSo) {
   const auto summary = nlohmann::json::parse(mapped.out);
   EXPECT_EQ(summary["parts"], 2);
   EXPECT_EQ(summary["frames_mapped"], 10);
+  // Odometry that was lost in between joins nothing.
+  appendPoses(at("both"), at("other"), 100);
+  EXPECT_EQ(runCommand("map -r " + at("both") + " --poses odometry --force --model " + at("both.model")).exit_code,
+            kExitWalkApart);
+}
+
+TEST_F(MapTest, WhatOdometryAloneJoinsIsNamed) {
+  const Answer other = runCommand("simulate --frames 6 --rate 5 --seed 9 --out " + at("joined"));
+  ASSERT_EQ(other.exit_code, kExitDone) << other.err;
+  fs::copy(at("walk"), at("long"), fs::copy_options::recursive);
+  append(at("long"), at("joined"), 2.3);
+  appendPoses(at("long"), at("joined"), 2.3);
+  const Answer mapped =
+      runCommand("map -r " + at("long") + " --poses odometry --model " + at("long.model") + " --json");
+  EXPECT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  EXPECT_THAT(mapped.err,
+              HasSubstr("note: only the odometry joins 2.3 to 3.3 s (6 frames) to the rest of the map"));
+  EXPECT_EQ(nlohmann::json::parse(mapped.out)["poses"]["alone"][0]["frames"], 6);
 }
 
 TEST_F(MapTest, TimesThatGoBackwardsAreRefusedWithTheirPlace) {

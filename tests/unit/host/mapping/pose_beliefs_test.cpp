@@ -54,6 +54,18 @@ TEST_F(PoseBeliefsTest, NoStepLeadsFromOneRecordingToTheNext) {
   EXPECT_EQ(PoseBeliefs(frames(), trust_).steps().size(), 38u);
 }
 
+// Slow enough to be a step, but nothing was told in between.
+TEST_F(PoseBeliefsTest, NoStepLeadsAcrossALossOfTheTracking) {
+  for (size_t i = 20; i < 40; ++i) frames()[i].told_piece = 1;
+  links_.clear();
+  const PoseBeliefs beliefs = judged();
+  EXPECT_EQ(beliefs.steps().size(), 38u);
+  EXPECT_EQ(beliefs.toldCount(), 38u);
+  const std::vector<uint32_t> parts = beliefs.parts({});
+  EXPECT_EQ(parts[19], 0u);
+  EXPECT_EQ(parts[20], 1u);
+}
+
 TEST_F(PoseBeliefsTest, AJumpIsNoStepEvenWhereNoImageSaysSo) {
   frames()[20].told_world_from_camera->translation_m.x() += 100;
   links_.clear();

@@ -210,6 +210,23 @@ TEST(WalkMapperTest, OdometryBridgesWhatImagesDoNot) {
   EXPECT_TRUE(with.world_from_camera[4] && with.world_from_camera[14] && with.world_from_camera[24]);
   EXPECT_LT(scoreOf(made, with).rigid_rmse_m, 0.01);
   EXPECT_EQ(with.told_wrong, 0u);
+  EXPECT_FALSE(with.by_told_alone[4]);
+  EXPECT_TRUE(with.by_told_alone[14] && with.by_told_alone[24]) << "which is to be said";
+  for (bool alone : without.by_told_alone) EXPECT_FALSE(alone);
+}
+
+// The tracking is lost after one room, and begins anew in another.
+TEST(WalkMapperTest, OdometryThatBeganAnewJoinsNoRooms) {
+  MadeUpWalk made = joined(makeWalk({30, 1, 1}), makeWalk({20, 0.5, 1, 0, 0, 2}));
+  tellTheTruth(&made, 0, 0);
+  for (size_t i = 30; i < 50; ++i) {
+    made.walk.keyframes[i].time_ns += 30000000000;
+    made.walk.keyframes[i].told_piece = 1;
+  }
+  const MappedWalk mapped = mapWalk(made.walk, {trustIn(PoseUse::kOdometry)}, {});
+  EXPECT_TRUE(mapped.world_from_camera[29]);
+  EXPECT_FALSE(mapped.world_from_camera[30]);
+  EXPECT_EQ(mapped.told_wrong, 0u);
 }
 
 TEST(WalkMapperTest, ApproximatePosesPlacePartsThatNeverMet) {
