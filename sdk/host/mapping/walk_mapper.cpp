@@ -39,10 +39,7 @@ class WalkMapper {
           "no two frames of the walk agree on how they lie to each other: are the images sharp, does depth lie on "
           "them (spherecloud doctor), and are the frames near enough in time to show the same?");
     mapped_.contradicting = dropWeakBridges(frames_.size(), &links_);
-    beliefs_.judge(links_);
-    findParts();
-    adjusted_.world_from_camera = posesAlongLinks(links_, mapped_.parts, beliefs_);
-    adjustToLinks(links_, beliefs_, &adjusted_.world_from_camera);
+    placePart();
     dropContradicting();
     mapped_.at_first = adjustPoints(kFirstSteps, false);
     const FramePoses expected = adjusted_.world_from_camera;
@@ -83,8 +80,31 @@ class WalkMapper {
     beliefs_.dropOutside(mapped_.parts);
   }
 
-  // Links that the others contradict, and frames that had nothing else.
+  // Poses for part 0, by its links and what is believed.
+  void placePart() {
+    beliefs_.judge(links_);
+    findParts();
+    adjusted_.world_from_camera = posesAlongLinks(links_, mapped_.parts, beliefs_);
+    adjustToLinks(links_, beliefs_, &adjusted_.world_from_camera);
+  }
+
+  // Links that the others contradict, and frames that had nothing else.  A part that falls to pieces may leave
+  // another one as the largest, which is then placed and judged in its turn.
   void dropContradicting() {
+    dropContradictingOfPart();
+    while (!isPartPlaced()) {
+      placePart();
+      dropContradictingOfPart();
+    }
+  }
+
+  bool isPartPlaced() const {
+    for (size_t i = 0; i < mapped_.parts.size(); ++i)
+      if (mapped_.parts[i] == 0 && !adjusted_.world_from_camera[i]) return false;
+    return true;
+  }
+
+  void dropContradictingOfPart() {
     const size_t before = links_.size();
     FramePoses &poses = adjusted_.world_from_camera;
     const auto contradicts = [&](const FrameLink &link) {

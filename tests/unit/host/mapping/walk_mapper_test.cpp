@@ -296,15 +296,31 @@ TEST(WalkMapperTest, FramesOfWhichNoTwoAgreeAreRefused) {
               testing::HasSubstr("no two frames of the walk agree"));
 }
 
-// Focal lengths that are too long, and depths of another scale in one of three frames.
-TEST(WalkMapperTest, WhereAllLinksContradictTheCalibrationIsNamedToo) {
+// Focal lengths that are off, and depths of another scale in one of three frames, so that their links contradict.
+MadeUpWalk contradictingFrames(double rays) {
   MadeUpWalk made = makeWalk({3, 0.3, 1});
   for (WalkFrame &frame : made.walk.keyframes)
     for (SeenPoint &point : frame.points) {
-      point.ray *= 0.7;
+      point.ray *= rays;
       point.bearing = Vector3(point.ray.x(), point.ray.y(), 1).normalized();
     }
   for (SeenPoint &point : made.walk.keyframes[1].points) point.depth_m *= 1.3;
+  return made;
+}
+
+// The largest part falls to pieces, and the next one takes its place.
+TEST(WalkMapperTest, APartThatContradictsItselfTakesNoOtherWithIt) {
+  const MadeUpWalk made = joined(contradictingFrames(0.7), makeWalk({2, 0.1, 1, 0, 0, 2}));
+  const MappedWalk mapped = mapWalk(made.walk, {}, {});
+  for (size_t i = 0; i < 3; ++i) EXPECT_FALSE(mapped.world_from_camera[i]);
+  ASSERT_TRUE(mapped.world_from_camera[3] && mapped.world_from_camera[4]);
+  const Rigid step = mapped.world_from_camera[4]->inverse() * *mapped.world_from_camera[3];
+  EXPECT_LT((step * stepOf(made, {3, 4}).inverse()).translation_m.norm(), 0.02);
+  EXPECT_GT(mapped.contradicting, 0u);
+}
+
+TEST(WalkMapperTest, WhereAllLinksContradictTheCalibrationIsNamedToo) {
+  const MadeUpWalk made = contradictingFrames(0.7);
   try {
     mapWalk(made.walk, {}, {});
     FAIL() << "the walk was mapped";
