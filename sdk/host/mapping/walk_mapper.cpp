@@ -89,13 +89,19 @@ class WalkMapper {
   }
 
   // Links that the others contradict, and frames that had nothing else.  A part that falls to pieces may leave
-  // another one as the largest, which is then placed and judged in its turn.
+  // another one as the largest, which is then placed and judged in its turn.  Throws where no two frames are left.
   void dropContradicting() {
     dropContradictingOfPart();
     while (!isPartPlaced()) {
       placePart();
       dropContradictingOfPart();
     }
+    const FramePoses &poses = adjusted_.world_from_camera;
+    if (std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }) < 2)
+      throw NothingAgrees(
+          "the links between the frames of the walk contradict each other: is the calibration (focal lengths, "
+          "sizes) that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do "
+          "not look all alike");
   }
 
   bool isPartPlaced() const {
@@ -175,11 +181,6 @@ class WalkMapper {
   MappedWalk result() {
     const FramePoses &poses = adjusted_.world_from_camera;
     const auto first = std::find_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); });
-    if (first == poses.end())
-      throw NothingAgrees(
-          "the links between the frames of the walk contradict each other: is the calibration (focal lengths, "
-          "sizes) that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do "
-          "not look all alike");
     mapped_.told = beliefs_.toldCount();
     beliefs_.dropDisproved(poses);
     mapped_.told_wrong = beliefs_.contradictedBy(poses);

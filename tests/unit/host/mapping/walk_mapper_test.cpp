@@ -296,21 +296,20 @@ TEST(WalkMapperTest, FramesOfWhichNoTwoAgreeAreRefused) {
               testing::HasSubstr("no two frames of the walk agree"));
 }
 
-// Focal lengths that are off, and depths of another scale in one of three frames, so that their links contradict.
-MadeUpWalk contradictingFrames(double rays) {
-  MadeUpWalk made = makeWalk({3, 0.3, 1});
+// Focal lengths that are off, and depths of another scale in one of the frames, so that their links contradict.
+MadeUpWalk contradicting(MadeUpWalk made, double rays, size_t other_scale) {
   for (WalkFrame &frame : made.walk.keyframes)
     for (SeenPoint &point : frame.points) {
       point.ray *= rays;
       point.bearing = Vector3(point.ray.x(), point.ray.y(), 1).normalized();
     }
-  for (SeenPoint &point : made.walk.keyframes[1].points) point.depth_m *= 1.3;
+  for (SeenPoint &point : made.walk.keyframes[other_scale].points) point.depth_m *= 1.3;
   return made;
 }
 
 // The largest part falls to pieces, and the next one takes its place.
 TEST(WalkMapperTest, APartThatContradictsItselfTakesNoOtherWithIt) {
-  const MadeUpWalk made = joined(contradictingFrames(0.7), makeWalk({2, 0.1, 1, 0, 0, 2}));
+  const MadeUpWalk made = joined(contradicting(makeWalk({3, 0.3, 1}), 0.7, 1), makeWalk({2, 0.1, 1, 0, 0, 2}));
   const MappedWalk mapped = mapWalk(made.walk, {}, {});
   for (size_t i = 0; i < 3; ++i) EXPECT_FALSE(mapped.world_from_camera[i]);
   ASSERT_TRUE(mapped.world_from_camera[3] && mapped.world_from_camera[4]);
@@ -320,14 +319,17 @@ TEST(WalkMapperTest, APartThatContradictsItselfTakesNoOtherWithIt) {
 }
 
 TEST(WalkMapperTest, WhereAllLinksContradictTheCalibrationIsNamedToo) {
-  const MadeUpWalk made = contradictingFrames(0.7);
-  try {
-    mapWalk(made.walk, {}, {});
-    FAIL() << "the walk was mapped";
-  } catch (const NothingAgrees &error) {  // which lets `map` say what was measured
-    EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr("contradict each other"), testing::HasSubstr("focal lengths"),
-                               testing::HasSubstr("spherecloud doctor")));
+  // Of the second walk the first frame keeps a pose, and no link.
+  for (const MadeUpWalk &made :
+       {contradicting(makeWalk({3, 0.3, 1}), 0.7, 1), contradicting(makeWalk({2, 0.2 / 3, 1}), 1.43, 0)}) {
+    try {
+      mapWalk(made.walk, {}, {});
+      FAIL() << "the walk was mapped";
+    } catch (const NothingAgrees &error) {  // which lets `map` say what was measured
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr("contradict each other"), testing::HasSubstr("focal lengths"),
+                                 testing::HasSubstr("spherecloud doctor")));
+    }
   }
 }
 
