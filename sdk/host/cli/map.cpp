@@ -37,10 +37,11 @@ void tellOfFit(const MapOptions &options, const RefinedCalibration &refined, con
               fixed(1000 * fit.before.depth_off_m, 1) + " (medians). Rays of the colour camera moved by up to " +
               fixed(moved.color.largest_px, 1) + " px, depth at 1 m by up to " +
               fixed(moved.depth_to_color[1].largest_px, 1) + " px in the colour image.");
-  if (refined.frames < kFewestToRefine)
-    console.warn("note: " + counted(refined.frames, "frame") +
-                 " may be too few to refine a calibration by, and a sound one may be worse now; give " +
-                 std::to_string(kFewestToRefine) + " or more, in which the camera walks and turns");
+  if (fit.frames < kFewestToRefine)
+    console.warn(
+        "note: " + counted(fit.frames, "frame") +
+        " that found a place may be too few to refine a calibration by, and a sound one may be worse now; give " +
+        std::to_string(kFewestToRefine) + " or more, in which the camera walks and turns");
   if (std::max(moved.color.largest_px, moved.depth_to_color[1].largest_px) > kMostRefinedPx)
     console.warn(
         "note: that is more than a calibration is off that is a little off, so the refined one may be wrong "
@@ -56,7 +57,7 @@ std::string trajectoryText(const MappedRecording &recording) {
 }
 
 // A model of next to nothing of the walk would pass for one of the place.  Empty where it is of enough.
-std::string whyNoModel(const MapOutcome &outcome) {
+std::string whyNoModel(const MapOptions &options, const MapOutcome &outcome) {
   uint64_t frames = 0, mapped = 0;
   for (const MappedRecording &recording : outcome.recordings) {
     frames += recording.poses.size();
@@ -65,7 +66,10 @@ std::string whyNoModel(const MapOutcome &outcome) {
   if (kLeastMappedOf * mapped >= frames) return "";
   return "only " + std::to_string(mapped) + " of " + counted(frames, "frame") +
          " found a place, fewer than a third, so no model was written; walk once more, slowly, in good light and "
-         "where there is much to see, or choose the frames of the part that is worth a map by --first and --last";
+         "where there is much to see, or choose the frames of the part that is worth a map by --first and --last" +
+         (options.refined_calibration.empty()
+              ? ""
+              : ". Leave " + options.refined_calibration + " unused: these frames alone say that it is right");
 }
 
 // `build` of the recording would refuse it, and of the model it could not know.
@@ -130,7 +134,7 @@ int run(const CLI::App &app, MapOptions options, const Console &console) {
   std::optional<CalibrationDifference> refined;
   if (!options.refined_calibration.empty()) refined = refine(&options, console);
   const MapOutcome outcome = mapRecordings(options, console);
-  const std::string why_none = whyNoModel(outcome);
+  const std::string why_none = whyNoModel(options, outcome);
   if (why_none.empty()) writeFiles(options, outcome);  // before words, whose reader may be gone
   tellOfMap(options, outcome, console);
   if (!why_none.empty()) throw std::runtime_error(why_none);

@@ -264,14 +264,8 @@ RefinedCalibration refineCalibration(const MapOptions &options) {
   const sphc_rig given = commonCalibration(recordings);
   checkRecordings(options, recordings);
   Steps steps;
-  RefinedCalibration refined = {given, {}, 0};
-  const auto read = [&](const TrialCalibration &trial) {
-    Walk walk = readAll(options, &trial, recordings, &steps);
-    refined.frames = walk.frameCount();
-    return walk;
-  };
-  refined.fit = fitCalibration(given, read, options.mapping(), steps.progress());
-  return refined;
+  const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
+  return {given, fitCalibration(given, read, options.mapping(), steps.progress())};
 }
 
 }  // namespace sphc::host

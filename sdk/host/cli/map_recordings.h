@@ -11,7 +11,6 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console);
 struct RefinedCalibration {
   sphc_rig given;  // of all recordings
   CalibrationFit fit;
-  size_t frames;  // that it was found by
 };
 
 // The calibration that the recordings agree with best.

@@ -24,12 +24,14 @@ CalibrationFit fitCalibration(const sphc_rig &given, const ReadTrial &read, cons
   options.change_so_far = {};
   TrialCalibration trial = {given, is_apart};
   for (int round = 0; round < kMostRounds; ++round) {
-    const MappedWalk mapped = mapWalk(read(trial), options, progress);
+    const Walk walk = read(trial);
+    const MappedWalk mapped = mapWalk(walk, options, progress);
     if (round == 0)
       fit.before = mapped.at_first;
     else if (offness(mapped.at_first) > kBetter * offness(fit.after))
       break;
     fit.calibration = trial.rig;
+    fit.frames = mappedFrames(walk, mapped.world_from_camera);
     fit.rounds = round;
     fit.after = mapped.at_first;
     trial.rig = changedBy(mapped.change, trial.rig);

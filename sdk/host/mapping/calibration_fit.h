@@ -13,6 +13,7 @@ using ReadTrial = std::function<Walk(const TrialCalibration &)>;
 
 struct CalibrationFit {
   sphc_rig calibration;
+  size_t frames = 0;                // that had a place, and so took part
   int rounds = 0;                   // that made the walk agree better with itself; 0: the calibration stays
   AdjustmentSummary before, after;  // residuals with the given calibration, and with the fitted one
 };

@@ -213,6 +213,14 @@ class WalkMapper {
 
 }  // namespace
 
+size_t mappedFrames(const Walk &walk, const FramePoses &poses) {
+  const auto keyframes =
+      std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); });
+  const auto followers = std::count_if(walk.followers.begin(), walk.followers.end(),
+                                       [&](const Follower &f) { return poses[f.keyframe].has_value(); });
+  return static_cast<size_t>(keyframes + followers);
+}
+
 MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress) {
   return WalkMapper(walk, options, progress).run();
 }

@@ -43,6 +43,9 @@ struct MappedWalk {
   bool is_unbelieved = false;
 };
 
+// Keyframes that have a pose, and their followers.
+size_t mappedFrames(const Walk &walk, const FramePoses &world_from_camera);
+
 class NothingAgrees : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -211,7 +211,7 @@ TEST_F(MapTest, ACalibrationThatIsOffIsRefined) {
                           at("off.model") + " --refine-calibration " + at("refined.json") + " --json";
   const Answer mapped = runCommand(map);
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
-  EXPECT_THAT(mapped.err, HasSubstr("10 frames may be too few to refine a calibration by"));
+  EXPECT_THAT(mapped.err, HasSubstr("10 frames that found a place may be too few to refine a calibration by"));
   const sphc_rig refined = recording::readCalibration(at("refined.json"));
   EXPECT_LT(std::abs(refined.color_camera.params[0] / fx - 1), 0.01);
   EXPECT_LT(std::abs(refined.color_camera.params[2] - cx), 3);
