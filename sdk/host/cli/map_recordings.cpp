@@ -69,8 +69,24 @@ bool hasToldPose(const MapOptions &options, const MappedRecording &recording) {
                            : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
 }
 
+// The last word on what is gone has the last recording.  Clocks that do not count from 1970 may each begin anew.
+void checkOrder(const std::vector<MappedRecording> &recordings) {
+  constexpr int64_t kSince1970Ns = 1000000000000000000;  // later than 2001
+  const MappedRecording *before = nullptr;
+  for (const MappedRecording &recording : recordings) {
+    if (recording.reader->frameCount() == 0) continue;
+    const int64_t time_ns = recording.reader->colorOf(0).time_ns;
+    if (time_ns < kSince1970Ns) return;
+    if (before && time_ns < before->reader->colorOf(0).time_ns)
+      throw UsageError("--recording: " + recording.name + " is older than " + before->name +
+                       ", by their times; give the oldest first, for what the last one shows decides what is gone");
+    before = &recording;
+  }
+}
+
 // Before images are read, which takes minutes.
 void checkRecordings(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
+  checkOrder(recordings);
   uint64_t frames = 0;
   bool is_told = false;
   for (const MappedRecording &recording : recordings) {

@@ -483,6 +483,32 @@ TEST_F(MapTest, WhatCannotBeMappedIsRefusedWithItsCure) {
   EXPECT_THAT(blind.err, HasSubstr(at("blind0") + ": no keypoint has depth"));
 }
 
+// The walk as if it had been recorded so many seconds later.
+void copyLater(const std::string &walk, const std::string &later, double seconds) {
+  fs::copy(walk, later, fs::copy_options::recursive);
+  for (const std::string list : {"rgb.txt", "depth.txt"}) {
+    std::ifstream from(walk + "/" + list);
+    std::ofstream to(later + "/" + list);
+    for (std::string line; std::getline(from, line);)
+      if (line[0] != '#') to << std::to_string(std::stod(line) + seconds) << line.substr(line.find(' ')) << "\n";
+  }
+}
+
+TEST_F(MapTest, TheOldestRecordingComesFirst) {
+  copyLater(at("walk"), at("monday"), 1.7e9);
+  copyLater(at("walk"), at("friday"), 1.7e9 + 4 * 86400);
+  const Answer wrong =
+      runCommand("map -r " + at("friday") + " -r " + at("monday") + " --model " + at("order.model"));
+  EXPECT_EQ(wrong.exit_code, kExitUsage);
+  EXPECT_THAT(wrong.err, HasSubstr(at("monday") + " is older than " + at("friday") + ", by their times"));
+  EXPECT_THAT(wrong.err, HasSubstr("give the oldest first"));
+  // A clock that does not count from 1970 tells nothing of the order.
+  for (const std::string pair : {at("monday") + " -r " + at("friday"), at("friday") + " -r " + at("walk")}) {
+    const Answer right = runCommand("map --last 1 --force -r " + pair + " --model " + at("order.model"));
+    EXPECT_EQ(right.exit_code, kExitDone) << right.err;
+  }
+}
+
 TEST_F(MapTest, ARecordingIsGivenOnce) {
   const Answer twice =
       runCommand("map -r " + at("walk") + " -r " + at("walk/../walk/") + " --model " + at("twice.model"));
