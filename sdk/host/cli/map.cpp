@@ -82,7 +82,7 @@ void checkContradictions(const MapOptions &options, const MapOutcome &outcome) {
 
 // Writes the calibration that the walk agrees with best; the map is then made with it.  How far it moved pixels.
 CalibrationDifference refine(MapOptions *options, const Console &console) {
-  const RefinedCalibration refined = refineCalibration(*options);
+  const RefinedCalibration refined = refineCalibration(*options, console);
   recording::writeCalibration(options->refined_calibration, refined.fit.calibration);
   options->of_each.calibration = options->refined_calibration;
   const CalibrationDifference moved = compareCalibrations(refined.given, refined.fit.calibration);

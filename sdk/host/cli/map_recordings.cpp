@@ -230,10 +230,11 @@ ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) 
   return points;
 }
 
-// Where nothing agrees, what was measured of the frames may tell why.
-MappedWalk mapOrSayWhy(const MapOptions &options, MapOutcome *outcome, Steps *steps, const Console &console) {
+// Calls `map` for the outcome's walk.  Where nothing agrees, what was measured of the frames may tell why.
+template <typename Map>
+auto mapOrSayWhy(MapOutcome *outcome, const Console &console, const Map &map) {
   try {
-    return mapWalk(outcome->walk, options.mapping(), steps->progress());
+    return map();
   } catch (const NothingAgrees &) {
     std::vector<uint32_t> each_apart(outcome->walk.keyframes.size());
     std::iota(each_apart.begin(), each_apart.end(), 0);
@@ -260,7 +261,8 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
-  outcome.mapped = mapOrSayWhy(options, &outcome, &steps, console);
+  outcome.mapped =
+      mapOrSayWhy(&outcome, console, [&] { return mapWalk(outcome.walk, options.mapping(), steps.progress()); });
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   const std::vector<bool> &alone = outcome.mapped.by_told_alone;
   outcome.by_told_alone =
@@ -275,13 +277,19 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   return outcome;
 }
 
-RefinedCalibration refineCalibration(const MapOptions &options) {
-  const std::vector<MappedRecording> recordings = openAll(options);
+RefinedCalibration refineCalibration(const MapOptions &options, const Console &console) {
+  MapOutcome outcome;  // as far as it is known
+  outcome.recordings = openAll(options);
+  const std::vector<MappedRecording> &recordings = outcome.recordings;
   const sphc_rig given = commonCalibration(recordings);
   checkRecordings(options, recordings);
   Steps steps;
-  const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
-  return {given, fitCalibration(given, read, options.mapping(), steps.progress())};
+  const auto read = [&](const TrialCalibration &trial) -> const Walk & {
+    outcome.walk = {};  // before another one is in memory
+    return outcome.walk = readAll(options, &trial, recordings, &steps);
+  };
+  return {given, mapOrSayWhy(&outcome, console,
+                             [&] { return fitCalibration(given, read, options.mapping(), steps.progress()); })};
 }
 
 }  // namespace sphc::host

@@ -14,6 +14,6 @@ struct RefinedCalibration {
 };
 
 // The calibration that the recordings agree with best.
-RefinedCalibration refineCalibration(const MapOptions &options);
+RefinedCalibration refineCalibration(const MapOptions &options, const Console &console);
 
 }  // namespace sphc::host

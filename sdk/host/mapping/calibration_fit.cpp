@@ -24,7 +24,7 @@ CalibrationFit fitCalibration(const sphc_rig &given, const ReadTrial &read, cons
   options.change_so_far = {};
   TrialCalibration trial = {given, is_apart};
   for (int round = 0; round < kMostRounds; ++round) {
-    const Walk walk = read(trial);
+    const Walk &walk = read(trial);
     const MappedWalk mapped = mapWalk(walk, options, progress);
     if (round == 0)
       fit.before = mapped.at_first;

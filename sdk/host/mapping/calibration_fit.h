@@ -9,7 +9,8 @@ struct TrialCalibration {
   sphc_rig rig;
   bool surfaces = false;
 };
-using ReadTrial = std::function<Walk(const TrialCalibration &)>;
+// What it returns is read until the next call.
+using ReadTrial = std::function<const Walk &(const TrialCalibration &)>;
 
 struct CalibrationFit {
   sphc_rig calibration;

@@ -179,6 +179,16 @@ TEST_F(MapTest, AModelOfLessThanAThirdOfTheFramesIsNotWritten) {
   EXPECT_EQ(runCommand("map -r " + at("blind3") + " --last 2 --model " + at("blind3.model")).exit_code, kExitDone);
 }
 
+// A wrong calibration is a reason to refine it, and one why nothing agrees.
+TEST_F(MapTest, WhereNothingAgreesWhatWasMeasuredIsSaidWhileACalibrationIsRefinedToo) {
+  writeBlindWalk(at("walk"), at("blind1"), 1);
+  const Answer refused = runCommand("map -r " + at("blind1") + " --last 3 --model " + at("blind1.model") +
+                                    " --refine-calibration " + at("blind1.json"));
+  EXPECT_EQ(refused.exit_code, kExitFailure);
+  EXPECT_THAT(refused.err, HasSubstr("no two frames of the walk agree"));
+  EXPECT_THAT(refused.err, HasSubstr("note: left out: 0."));
+}
+
 // Focal length and principal point are off in the file that the tool is given.
 // Depth is three frames late: `build` refuses the recording, and knows nothing of it where it gets the model alone.
 TEST_F(MapTest, AWalkThatContradictsItselfIsNotForPublishing) {

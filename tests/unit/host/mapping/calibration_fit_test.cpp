@@ -16,7 +16,7 @@ TEST(CalibrationFitTest, FramesThatFoundAPlaceAreThoseThatItIsFoundBy) {
     walk.keyframes[i].descriptors.clear();
   }
   walk.followers = {{0, 100, 3, {}}, {0, 101, 9, {}}};
-  const auto read = [&](const TrialCalibration &) { return walk; };
+  const auto read = [&](const TrialCalibration &) -> const Walk & { return walk; };
   EXPECT_EQ(fitCalibration(spottedRig(), read, {}, {}).frames, 9u);
 }
 
