@@ -237,7 +237,7 @@ auto mapOrSayWhy(MapOutcome *outcome, const Console &console, const Map &map) {
     return map();
   } catch (const NothingAgrees &) {
     std::vector<uint32_t> each_apart(outcome->walk.keyframes.size());
-    std::iota(each_apart.begin(), each_apart.end(), 0);
+    std::iota(each_apart.begin(), each_apart.end(), 1);  // 0 is what is mapped
     outcome->stretches = stretchesOf(outcome->walk, each_apart, FramePoses(each_apart.size()));
     noteStretchesLeftOut(*outcome, console);
     throw;

@@ -186,7 +186,7 @@ TEST_F(MapTest, WhereNothingAgreesWhatWasMeasuredIsSaidWhileACalibrationIsRefine
                                     " --refine-calibration " + at("blind1.json"));
   EXPECT_EQ(refused.exit_code, kExitFailure);
   EXPECT_THAT(refused.err, HasSubstr("no two frames of the walk agree"));
-  EXPECT_THAT(refused.err, HasSubstr("note: left out: 0."));
+  EXPECT_THAT(refused.err, HasSubstr("note: left out: 0.0 to 0.6 s (4 frames)")) << "the first one too";
 }
 
 // Focal length and principal point are off in the file that the tool is given.
