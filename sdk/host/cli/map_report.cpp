@@ -73,14 +73,6 @@ uint32_t framesOf(const std::vector<Stretch> &stretches) {
   return frames;
 }
 
-void warnOfRecordings(const MapOutcome &outcome, const Console &console) {
-  for (const MappedRecording &recording : outcome.recordings)
-    if (recording.framesMapped() == 0)
-      console.warn(
-          recording.name + " never met the others: none of its " + count(recording.poses.size()) +
-          " frames is in the map. Record it once more, and begin at a place that one of the others shows.");
-}
-
 // What is known of why the stretches of a part met nothing else.
 std::string causesOfPart(const std::vector<Stretch> &part) {
   std::string text;
@@ -89,8 +81,27 @@ std::string causesOfPart(const std::vector<Stretch> &part) {
   return text;
 }
 
+void warnOfRecordings(const MapOutcome &outcome, const Clock &clock, const Console &console) {
+  for (const MappedRecording &recording : outcome.recordings) {
+    if (recording.framesMapped() > 0) continue;
+    std::vector<Stretch> of_it;
+    for (const std::vector<Stretch> &part : outcome.stretches.apart)
+      for (const Stretch &s : part)
+        if (&clock.recordingOf(s) == &recording) of_it.push_back(s);
+    console.warn(recording.name + " never met the others: none of its " + count(recording.poses.size()) +
+                 " frames is in the map. Record it once more, and begin at a place that one of the others shows." +
+                 causesOfPart(of_it));
+  }
+}
+
+// But for parts of recordings of which nothing is in the map: warnOfRecordings() tells of these.
 void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &console) {
-  const Stretches &s = outcome.stretches;
+  Stretches s = outcome.stretches;
+  const auto is_of_strangers = [&](const std::vector<Stretch> &part) {
+    return std::all_of(part.begin(), part.end(),
+                       [&](const Stretch &stretch) { return clock.recordingOf(stretch).framesMapped() == 0; });
+  };
+  s.apart.erase(std::remove_if(s.apart.begin(), s.apart.end(), is_of_strangers), s.apart.end());
   if (s.apart.empty()) return;
   console.warn("The walk falls apart. The map is of its largest part alone, " + count(framesOf(s.mapped)) + " of " +
                count(outcome.walk.frameCount()) + " frames: " + clock.timesOf(s.mapped) + ".");
@@ -303,7 +314,7 @@ void warnOfMap(const MapOutcome &outcome, const Console &console) {
     console.warn("note: the accelerations do not tell the vertical: " + outcome.vertical.doubt);
   warnOfTruth(outcome, console);
   warnOfParts(outcome, clock, console);
-  warnOfRecordings(outcome, console);
+  warnOfRecordings(outcome, clock, console);
 }
 
 nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
