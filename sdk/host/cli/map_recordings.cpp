@@ -97,6 +97,14 @@ void checkRecordings(const MapOptions &options, const std::vector<MappedRecordin
   if (options.trust.use != PoseUse::kNone && !is_told) refuseTold(options, recordings);
 }
 
+// As checkObservations(); points are made of keyframes alone, and of those that have a place.
+void checkKeyframes(const MapOptions &options, size_t keyframes) {
+  if (options.import.min_observations > keyframes)
+    throw UsageError("--min-observations " + std::to_string(options.import.min_observations) +
+                     ": points are made of keyframes that found a place, and there are " +
+                     std::to_string(keyframes) + "; give a smaller number, or record more frames of each place");
+}
+
 // The frames that are mapped may be none of those that were told.
 void checkTold(const MapOptions &options, const MapOutcome &outcome) {
   if (options.trust.use == PoseUse::kNone) return;
@@ -260,9 +268,11 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   checkRecordings(options, outcome.recordings);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome);
+  checkKeyframes(options, outcome.walk.keyframes.size());
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
   outcome.mapped =
       mapOrSayWhy(&outcome, console, [&] { return mapWalk(outcome.walk, options.mapping(), steps.progress()); });
+  checkKeyframes(options, placedCount(outcome.mapped.world_from_camera));
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   const std::vector<bool> &alone = outcome.mapped.by_told_alone;
   outcome.by_told_alone =

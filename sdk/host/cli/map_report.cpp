@@ -240,10 +240,7 @@ void addScore(const MapOutcome &outcome, const MappedRecording &recording, std::
 
 }  // namespace
 
-uint32_t MappedRecording::framesMapped() const {
-  return static_cast<uint32_t>(
-      std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }));
-}
+uint32_t MappedRecording::framesMapped() const { return static_cast<uint32_t>(placedCount(poses)); }
 
 recording::PoseTrack MappedRecording::path() const {
   recording::PoseTrack path;

@@ -1,5 +1,6 @@
 // Which frames of a walk are worth comparing.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <vector>
@@ -13,6 +14,10 @@ constexpr uint32_t kMostGapInTime = 17;
 
 // Poses of frames, world_from_camera; none of those that are not connected.
 using FramePoses = std::vector<std::optional<Rigid>>;
+inline size_t placedCount(const FramePoses &poses) {
+  return static_cast<size_t>(
+      std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }));
+}
 
 // Of two recordings, or far apart in one.
 bool isLoop(const std::vector<WalkFrame> &frames, const FramePair &pair);

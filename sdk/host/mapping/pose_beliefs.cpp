@@ -174,8 +174,7 @@ void PoseBeliefs::addTo(ceres::Problem *problem, ceres::LossFunction *loss, cons
 
 size_t PoseBeliefs::toldCount() const {
   if (trust_.use == PoseUse::kOdometry) return told_steps_.size();
-  return static_cast<size_t>(
-      std::count_if(told_.begin(), told_.end(), [](const auto &pose) { return pose.has_value(); }));
+  return placedCount(told_);
 }
 
 size_t PoseBeliefs::contradictedBy(const FramePoses &mapped) const {

@@ -96,8 +96,7 @@ class WalkMapper {
       placePart();
       dropContradictingOfPart();
     }
-    const FramePoses &poses = adjusted_.world_from_camera;
-    if (std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }) < 2)
+    if (placedCount(adjusted_.world_from_camera) < 2)
       throw NothingAgrees(
           "the links between the frames of the walk contradict each other: is the calibration (focal lengths, "
           "sizes) that of these cameras (spherecloud doctor)? If it is, walk once more, slowly, where things do "
@@ -214,11 +213,9 @@ class WalkMapper {
 }  // namespace
 
 size_t mappedFrames(const Walk &walk, const FramePoses &poses) {
-  const auto keyframes =
-      std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); });
   const auto followers = std::count_if(walk.followers.begin(), walk.followers.end(),
                                        [&](const Follower &f) { return poses[f.keyframe].has_value(); });
-  return static_cast<size_t>(keyframes + followers);
+  return placedCount(poses) + static_cast<size_t>(followers);
 }
 
 MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress) {

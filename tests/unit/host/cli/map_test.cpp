@@ -175,6 +175,10 @@ TEST_F(MapTest, AModelOfLessThanAThirdOfTheFramesIsNotWritten) {
   writeBlindWalk(at("walk"), at("blind4"), 4);
   const Answer found = runCommand("map -r " + at("blind4") + " --model " + at("blind4.model"));
   EXPECT_EQ(found.exit_code, kExitDone) << found.err;
+  const Answer few =
+      runCommand("map -r " + at("blind4") + " --min-observations 5 --force --model " + at("blind4.model"));
+  EXPECT_EQ(few.exit_code, kExitUsage);
+  EXPECT_THAT(few.err, HasSubstr("keyframes that found a place, and there are 4; give a smaller number"));
   // A part that is chosen is all of the walk.
   EXPECT_EQ(runCommand("map -r " + at("blind3") + " --last 2 --model " + at("blind3.model")).exit_code, kExitDone);
 }
