@@ -103,7 +103,6 @@ MappingOptions MapOptions::mapping() const {
   mapping.trust.drift_m = drift_percent / 100;
   mapping.trust.drift_rad = drift_deg * kPi / 180;
   mapping.threads = threads;
-  mapping.judges_told = judgesTold();
   return mapping;
 }
 

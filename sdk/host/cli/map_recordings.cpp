@@ -270,8 +270,9 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   checkTold(options, outcome);
   checkKeyframes(options, outcome.walk.keyframes.size());
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
-  outcome.mapped =
-      mapOrSayWhy(&outcome, console, [&] { return mapWalk(outcome.walk, options.mapping(), steps.progress()); });
+  MappingOptions mapping = options.mapping();
+  mapping.judges_told = options.judgesTold();
+  outcome.mapped = mapOrSayWhy(&outcome, console, [&] { return mapWalk(outcome.walk, mapping, steps.progress()); });
   checkKeyframes(options, placedCount(outcome.mapped.world_from_camera));
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   const std::vector<bool> &alone = outcome.mapped.by_told_alone;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/base/in_seconds.h"
 #include "host/guide/stretch_causes.h"
 #include "host/guide/time_words.h"
 #include "host/report/hint_words.h"
@@ -41,8 +42,7 @@ class Clock {
   }
   double secondsOf(uint32_t keyframe) const {
     const WalkFrame &frame = outcome_.walk.keyframes[keyframe];
-    return 1e-9 *
-           static_cast<double>(frame.time_ns - outcome_.recordings[frame.recording].reader->colorOf(0).time_ns);
+    return inSeconds(frame.time_ns - outcome_.recordings[frame.recording].reader->colorOf(0).time_ns);
   }
   std::string timesOf(const std::vector<Stretch> &stretches) const {
     std::string text;

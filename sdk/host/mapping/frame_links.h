@@ -25,6 +25,11 @@ struct FrameLink {
   std::vector<PointMatch> matches;       // that agree with it
 };
 
+// Of a motion that should be none: is it so small?
+inline bool isWithin(const Rigid &error, double limit_m, double limit_rad) {
+  return error.translation_m.norm() <= limit_m && rotationAngle(error.rotation) <= limit_rad;
+}
+
 // What a link must show.
 struct LinkDemands {
   uint32_t min_inliers = 20;
@@ -45,7 +50,6 @@ class FrameLinker {
   struct Side {
     std::vector<Correspondence> correspondences;
     Estimate estimate;
-    uint32_t with_depth = 0;
   };
   void localize(const Rigid *expected, Side *side);
   bool isSupported(const Side &side, const LinkDemands &demands) const;

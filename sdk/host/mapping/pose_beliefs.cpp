@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/base/in_seconds.h"
 #include "host/mapping/pose_costs.h"
 #include "host/mapping/pose_graph.h"
 
@@ -21,12 +22,6 @@ constexpr double kLeastShare = 0.25;
 constexpr double kDisproved = 5;  // times what contradicts a pose: of another world, or of other axes
 
 bool isFinite(const Rigid &pose) { return pose.rotation.allFinite() && pose.translation_m.allFinite(); }
-
-double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
-bool isWithin(const Rigid &error, double limit_m, double limit_rad) {
-  return error.translation_m.norm() <= limit_m && rotationAngle(error.rotation) <= limit_rad;
-}
 
 // A step of odometry with its covariance.
 FrameLink stepOf(const FramePair &frames, const Rigid &b_from_a, const PoseTrust &trust) {
@@ -65,7 +60,7 @@ PoseBeliefs::PoseBeliefs(const std::vector<WalkFrame> &frames, const PoseTrust &
     if (before && frames[*before].recording == frames[i].recording &&
         frames[*before].told_piece == frames[i].told_piece) {
       const Rigid b_from_a = told_[i]->inverse() * *told_[*before];
-      const double s = seconds(frames[i].time_ns - frames[*before].time_ns);
+      const double s = inSeconds(frames[i].time_ns - frames[*before].time_ns);
       told_steps_.push_back(stepOf({*before, i}, b_from_a, trust));
       if (isWithin(b_from_a, kFastestM * s, kFastestRad * s)) steps_.push_back(told_steps_.back());
     }

@@ -10,6 +10,7 @@
 
 #include "host/mapping/pose_block.h"
 #include "host/mapping/pose_costs.h"
+#include "host/mapping/root_of.h"
 
 namespace sphc::host {
 namespace {
@@ -19,11 +20,6 @@ constexpr double kWideLossSigmas = 30, kLinkLossSigmas = 3;
 constexpr int kMostSteps = 50;
 constexpr uint32_t kFewestBridges = 3, kSureInliers = 60;
 constexpr double kMostOffM = 0.15, kMostOffRad = 0.08;
-
-uint32_t rootOf(std::vector<uint32_t> *parent, uint32_t i) {
-  while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
-  return i;
-}
 
 void solveLinks(const std::vector<FrameLink> &links, const PoseBeliefs &beliefs, double loss_sigmas,
                 FramePoses *world_from_camera) {
@@ -143,8 +139,7 @@ void adjustToLinks(const std::vector<FrameLink> &links, const PoseBeliefs &belie
 bool isConsistent(const FrameLink &link, const FramePoses &world_from_camera) {
   const std::optional<Rigid> &a = world_from_camera[link.frames.a], &b = world_from_camera[link.frames.b];
   if (!a || !b) return false;
-  const Rigid error = b->inverse() * *a * link.b_from_a.inverse();
-  return error.translation_m.norm() < kMostOffM && rotationAngle(error.rotation) < kMostOffRad;
+  return isWithin(b->inverse() * *a * link.b_from_a.inverse(), kMostOffM, kMostOffRad);
 }
 
 }  // namespace sphc::host

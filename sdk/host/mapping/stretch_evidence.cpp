@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/base/in_seconds.h"
 #include "host/base/median.h"
 #include "host/mapping/view_speed.h"
 
@@ -35,8 +36,8 @@ double speedAround(const Walk &walk, uint32_t first, uint32_t last, const FrameP
     if (walk.keyframes[i].recording != walk.keyframes[first].recording || !poses[i]) continue;
     const int64_t time_ns = before < i ? walk.keyframes[i].time_ns - walk.keyframes[before].time_ns : 0;
     if (time_ns > 0)
-      fastest = std::max(fastest, viewShift(poses[before]->inverse() * *poses[i], walk.middle_depth_m) /
-                                      (1e-9 * static_cast<double>(time_ns)));
+      fastest = std::max(fastest,
+                         viewShift(poses[before]->inverse() * *poses[i], walk.middle_depth_m) / inSeconds(time_ns));
     before = i;
   }
   return fastest;
@@ -47,7 +48,7 @@ double gapAround(const Walk &walk, uint32_t first, uint32_t last) {
   for (uint32_t i = first; i <= last + 1 && i < walk.keyframes.size(); ++i)
     if (walk.keyframes[i].recording == walk.keyframes[first].recording)
       longest_ns = std::max(longest_ns, walk.keyframes[i].gap_ns);
-  return 1e-9 * static_cast<double>(longest_ns);
+  return inSeconds(longest_ns);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ StretchEvidence evidenceOf(const Walk &walk, uint32_t first, uint32_t last, cons
   evidence.view_per_s = speedAround(walk, first, last, poses);
   evidence.gap_s = gapAround(walk, first, last);
   evidence.usual_gap_s = middleOf(walk, 0, static_cast<uint32_t>(walk.keyframes.size() - 1),
-                                  [](const WalkFrame &frame) { return 1e-9 * static_cast<double>(frame.gap_ns); });
+                                  [](const WalkFrame &frame) { return inSeconds(frame.gap_ns); });
   return evidence;
 }
 

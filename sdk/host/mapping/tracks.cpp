@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/mapping/root_of.h"
+
 namespace sphc::host {
 namespace {
 
@@ -43,9 +45,7 @@ class Joiner {
 
  private:
   uint32_t rootOf(const Sighting &sighting) {
-    uint32_t i = first_of_frame_[sighting.frame] + sighting.point;
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+    return sphc::host::rootOf(&parent_, first_of_frame_[sighting.frame] + sighting.point);
   }
 
   std::vector<uint32_t> first_of_frame_, parent_;

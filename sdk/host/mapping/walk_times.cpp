@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/base/in_seconds.h"
 #include "host/base/median.h"
 
 namespace sphc::host {
@@ -13,8 +14,6 @@ using recording::RecordedImage;
 
 constexpr size_t kFewestOfDrift = 10;  // frames
 constexpr double kSteady = 0.1;        // of a drift: what it leaves over, root of the mean square, relative
-
-double inSeconds(int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); }
 
 std::vector<double> gapsOf(const std::vector<RecordedImage> &images) {
   std::vector<double> gaps_s;
