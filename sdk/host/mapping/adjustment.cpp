@@ -6,112 +6,19 @@
 #include <cmath>
 
 #include "host/base/median.h"
+#include "host/mapping/adjustment_costs.h"
 #include "host/mapping/pose_block.h"
 
 namespace sphc::host {
 namespace {
 
-using Row3 = Eigen::Matrix<double, 1, 3>;
-using Matrix23 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
-
 constexpr double kLossSigmas = 3;
 constexpr double kFarSigmas = 4.5;  // of a sighting that leaves its track
 constexpr double kFarDepth = 3;     // sigmas
 constexpr double kIndependentDepths = 10;
-constexpr double kNearestM = 0.05;  // of a point before the camera, so that it can be divided by
-
 // What is believed of a calibration: 1 sigma of the focal length, and of the principal point in focal lengths; of
 // turns in rad and of shifts in metres.  Sightings share errors of shutters and materials.
 constexpr double kLensSigma = 0.01, kMountSigma = 0.01, kIndependentSightings = 1000;
-
-// d(point in the camera) / d(motion of the camera): rotation, shift.
-Eigen::Matrix<double, 3, 6> motionOf(const Vector3 &point_m) {
-  Eigen::Matrix<double, 3, 6> motion;
-  motion << -crossMatrix(point_m), Matrix3::Identity();
-  return motion;
-}
-
-template <int kRows>
-void putPose(const Eigen::Matrix<double, kRows, 3, Eigen::RowMajor> &by_point, const Vector3 &point_m,
-             double *out) {
-  Eigen::Map<Eigen::Matrix<double, kRows, 7, Eigen::RowMajor>> jacobian(out);
-  jacobian.template leftCols<6>() = by_point * motionOf(point_m);
-  jacobian.col(6).setZero();
-}
-
-// Blocks: point in the world, camera_from_world, what the lens is off.
-class RayCost : public ceres::SizedCostFunction<2, 3, 7, 3> {
- public:
-  explicit RayCost(const SeenPoint &seen) : ray_(seen.ray), weight_(1 / seen.sigma) {}
-
-  bool Evaluate(double const *const *blocks, double *residuals, double **jacobians) const override {
-    const Rigid camera_from_world = poseFrom(blocks[1]);
-    const Vector3 point_m = camera_from_world * Eigen::Map<const Vector3>(blocks[0]);
-    const double z = std::max(point_m.z(), kNearestM);
-    const Vector2 ray = point_m.head<2>() / z;
-    Eigen::Map<Vector2> residual(residuals);
-    residual = weight_ * (assumedRay(ray, blocks[2]) - ray_);
-    if (!jacobians) return true;
-    Matrix23 by_point;
-    by_point << 1, 0, -ray.x(), 0, 1, -ray.y();
-    by_point *= (1 + blocks[2][0]) * weight_ / z;
-    if (jacobians[0]) Eigen::Map<Matrix23>(jacobians[0]).noalias() = by_point * camera_from_world.rotation;
-    if (jacobians[1]) putPose<2>(by_point, point_m, jacobians[1]);
-    if (jacobians[2]) {
-      Eigen::Map<Matrix23> by_lens(jacobians[2]);
-      by_lens << ray.x(), 1, 0, ray.y(), 0, 1;
-      by_lens *= weight_;
-    }
-    return true;
-  }
-
- private:
-  Vector2 ray_;
-  double weight_;
-};
-
-// What the sensor would measure of a true depth, and its derivative by that depth and by (offset_m, slope).
-struct Measurement {
-  double depth_m, by_depth, by_offset, by_slope;
-};
-Measurement measurementOf(double true_m, const double *bias, double mid_m) {
-  const double by_depth = 1 / (1 + bias[1]), depth_m = (true_m - bias[0] + bias[1] * mid_m) * by_depth;
-  return {depth_m, by_depth, -by_depth, (mid_m - depth_m) * by_depth};
-}
-
-// Blocks: point in the world, camera_from_world, offset and slope of the depths, how the depth sensor is off its
-// place.  The residual is in the sensor's own measure: were measurements corrected in place, a shorter world would
-// have shorter residuals, and would shrink.
-class DepthCost : public ceres::SizedCostFunction<1, 3, 7, 2, 5> {
- public:
-  DepthCost(const SeenPoint &seen, double mid_m)
-      : depth_m_(seen.depth_m), by_mount_(depthByMount(seen)), mid_m_(mid_m), weight_(1 / seen.depth_sigma_m) {}
-
-  bool Evaluate(double const *const *blocks, double *residuals, double **jacobians) const override {
-    const Rigid camera_from_world = poseFrom(blocks[1]);
-    const Vector3 point_m = camera_from_world * Eigen::Map<const Vector3>(blocks[0]);
-    const Measurement expected = measurementOf(point_m.z(), blocks[2], mid_m_);
-    residuals[0] = weight_ * (expected.depth_m - depth_m_ - by_mount_.dot(Eigen::Map<const Vector5>(blocks[3])));
-    if (!jacobians) return true;
-    const Row3 by_point = weight_ * expected.by_depth * Row3::UnitZ();
-    if (jacobians[0]) Eigen::Map<Row3>(jacobians[0]).noalias() = by_point * camera_from_world.rotation;
-    if (jacobians[1]) putPose<1>(by_point, point_m, jacobians[1]);
-    if (jacobians[2]) {
-      jacobians[2][0] = weight_ * expected.by_offset;
-      jacobians[2][1] = weight_ * expected.by_slope;
-    }
-    if (jacobians[3]) {
-      Eigen::Map<Vector5> by_mount(jacobians[3]);
-      by_mount = -weight_ * by_mount_;
-    }
-    return true;
-  }
-
- private:
-  double depth_m_;
-  Vector5 by_mount_;
-  double mid_m_, weight_;
-};
 
 // Block: offset and slope.  Depths of one scene share errors of materials, angles and range: all of them together
 // tell no more of the bias than a few independent ones, so the prior weighs so much more.
