@@ -67,13 +67,18 @@ class DriverContract : public ::testing::TestWithParam<Driver> {
     EXPECT_STRNE(message(), "");
   }
 
-  // Up to `count` captures, each shown and then released.
+  static bool ends() { return GetParam().captures_until_end != 0 || GetParam().may_end; }
+
+  // Up to `count` captures, each shown and then released.  Fewer only where the driver has an end.
   template <typename Visit>
   void forEachCapture(uint32_t count, Visit visit) const {
     for (uint32_t i = 0; i < count; ++i) {
       sphc_capture capture = emptyCapture();
       const sphc_status status = acquire(&capture);
-      if (status == SPHC_END) return;
+      if (status == SPHC_END) {
+        EXPECT_TRUE(ends()) << "SPHC_END after " << i << " captures of a driver that is said to be endless";
+        return;
+      }
       ASSERT_EQ(status, SPHC_OK) << message();
       visit(capture);
       release(capture);
