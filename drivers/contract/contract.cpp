@@ -90,7 +90,7 @@ class DriverContract : public ::testing::TestWithParam<Driver> {
 
 // Touches every byte, so that a sanitizer sees a buffer that is too short.
 uint64_t checksum(const sphc_image &image) {
-  const uint32_t pixel_bytes = image.format == SPHC_FORMAT_GRAY8 ? 1 : image.format == SPHC_FORMAT_DEPTH16 ? 2 : 3;
+  const uint32_t pixel_bytes = sphc_format_bytes(image.format);
   uint64_t sum = 0;
   for (uint32_t y = 0; y < image.height; ++y) {
     const uint8_t *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
@@ -295,12 +295,14 @@ TEST_P(DriverContract, GivesImagesThatFitTheirStream) {
 
 TEST_P(DriverContract, GivesAmplitudesThatFitTheirDepth) {
   ASSERT_EQ(start(), SPHC_OK);
-  forEachCapture(20, [](const sphc_capture &capture) {
+  uint32_t with_amplitudes = 0;
+  forEachCapture(20, [&](const sphc_capture &capture) {
     const sphc_image &amplitude = capture.amplitude;
     if (!amplitude.data) {
       EXPECT_EQ(amplitude.width | amplitude.height | amplitude.stride_bytes | uint32_t(amplitude.format), 0u);
       return;
     }
+    ++with_amplitudes;
     EXPECT_EQ(capture.stream, SPHC_STREAM_DEPTH);
     EXPECT_EQ(amplitude.width, capture.image.width);
     EXPECT_EQ(amplitude.height, capture.image.height);
@@ -308,7 +310,9 @@ TEST_P(DriverContract, GivesAmplitudesThatFitTheirDepth) {
     EXPECT_GE(amplitude.stride_bytes, amplitude.width * pixel_bytes);
     EXPECT_TRUE(amplitude.format == SPHC_FORMAT_GRAY8 ||
                 (amplitude.format >= SPHC_FORMAT_GRAY10 && amplitude.format <= SPHC_FORMAT_GRAY16));
+    checksum(amplitude);
   });
+  EXPECT_EQ(with_amplitudes > 0, GetParam().gives_amplitudes) << "Driver::gives_amplitudes says otherwise";
 }
 
 TEST_P(DriverContract, KeepsSizeAndFormatOfAStream) {

@@ -32,6 +32,7 @@ struct Driver {
   uint32_t spare_buffers = 0;       // beyond those that may be on loan
   bool is_live = true;              // times are of now; those of a recording and of a fake are not
   bool may_end = false;             // after captures that nobody has counted
+  bool gives_amplitudes = false;    // with some depth captures
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 

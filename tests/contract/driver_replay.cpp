@@ -8,13 +8,15 @@ namespace {
 
 constexpr uint32_t kFrames = 10;
 
+enum class Recorded { kFolder, kMcap, kMcapWithAmplitudes };
+
 struct ReplayOfTempFolder {
-  ReplayOfTempFolder(sphc_replay_mode mode, bool is_mcap) {
-    const std::string path = is_mcap ? folder / "walk.mcap" : folder.path().string();
-    if (is_mcap)
-      writeTinyMcap(path, kFrames, recorderConfig());
-    else
+  ReplayOfTempFolder(sphc_replay_mode mode, Recorded recorded) {
+    const std::string path = recorded == Recorded::kFolder ? folder.path().string() : folder / "walk.mcap";
+    if (recorded == Recorded::kFolder)
       writeTinyRecording(path, kFrames);
+    else
+      writeTinyMcap(path, kFrames, recorderConfig(), recorded == Recorded::kMcapWithAmplitudes);
     sphc_replay_config config = replayConfig();
     config.mode = mode;
     replay = std::make_unique<OpenReplay>(path, nullptr, &config);
@@ -23,8 +25,8 @@ struct ReplayOfTempFolder {
   std::unique_ptr<OpenReplay> replay;
 };
 
-OpenedDriver openReplay(sphc_replay_mode mode, bool is_mcap) {
-  auto opened = std::make_shared<ReplayOfTempFolder>(mode, is_mcap);
+OpenedDriver openReplay(sphc_replay_mode mode, Recorded recorded) {
+  auto opened = std::make_shared<ReplayOfTempFolder>(mode, recorded);
   OpenedDriver driver{{}, opened};
   sphc_replay_source(opened->replay->get(), &driver.source);
   return driver;
@@ -34,10 +36,12 @@ OpenedDriver openReplay(sphc_replay_mode mode, bool is_mcap) {
 
 std::vector<Driver> replayDrivers() {
   std::vector<Driver> drivers = {
-      {"Replay", [] { return openReplay(SPHC_REPLAY_FAST, false); }},
-      {"ReplayInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, false); }},
-      {"ReplayOfMcap", [] { return openReplay(SPHC_REPLAY_FAST, true); }},
-      {"ReplayOfMcapInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, true); }}};
+      {"Replay", [] { return openReplay(SPHC_REPLAY_FAST, Recorded::kFolder); }},
+      {"ReplayInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, Recorded::kFolder); }},
+      {"ReplayOfMcap", [] { return openReplay(SPHC_REPLAY_FAST, Recorded::kMcap); }},
+      {"ReplayOfMcapInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, Recorded::kMcap); }},
+      {"ReplayOfAmplitudes", [] { return openReplay(SPHC_REPLAY_FAST, Recorded::kMcapWithAmplitudes); }}};
+  drivers.back().gives_amplitudes = true;
   for (Driver &driver : drivers) {
     driver.captures_until_end = 2 * kFrames;
     driver.is_live = false;

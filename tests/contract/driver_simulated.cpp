@@ -39,6 +39,7 @@ class SimulatedPool {
     sphc_simulated_config config;
     sphc_simulated_config_init(&config, sizeof config);
     config.frame_count = kFrames;
+    config.raw_depth = 1;    // with amplitudes
     config.motion_blur = 0;  // renders faster
     sphc_simulated *simulated = nullptr;
     sphc_simulated_open(&config, &simulated, nullptr);
@@ -57,6 +58,10 @@ OpenedDriver openSimulated() {
 
 }  // namespace
 
-std::vector<Driver> driversUnderTest() { return {{"Simulated", openSimulated, 2 * kFrames}}; }
+std::vector<Driver> driversUnderTest() {
+  Driver simulated = {"Simulated", openSimulated, 2 * kFrames};
+  simulated.gives_amplitudes = true;
+  return {simulated};
+}
 
 }  // namespace sphc::contract

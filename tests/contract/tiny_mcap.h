@@ -64,12 +64,14 @@ class OpenRecorder {
   sphc_message message_ = {};
 };
 
-inline void addTinyFrames(sphc_recorder *recorder, uint32_t frames) {
+inline void addTinyFrames(sphc_recorder *recorder, uint32_t frames, bool with_amplitudes = false) {
   sphc_message message{};
   for (uint32_t i = 0; i < frames; ++i) {
     const TinyImages images(i);
     const sphc_capture color = tinyCapture(i, SPHC_STREAM_COLOR, images);
-    const sphc_capture depth = tinyCapture(i, SPHC_STREAM_DEPTH, images);
+    const std::vector<uint16_t> amplitude = tinyAmplitude(i);
+    sphc_capture depth = tinyCapture(i, SPHC_STREAM_DEPTH, images);
+    if (with_amplitudes) depth.amplitude = amplitudeImage(amplitude);
     const sphc_rigid pose = tinyPose(i);
     EXPECT_EQ(sphc_recorder_add(recorder, &color, &message), SPHC_OK) << message.text;
     EXPECT_EQ(sphc_recorder_add(recorder, &depth, &message), SPHC_OK) << message.text;
@@ -77,10 +79,11 @@ inline void addTinyFrames(sphc_recorder *recorder, uint32_t frames) {
   }
 }
 
-inline void writeTinyMcap(const std::string &path, uint32_t frames, const sphc_recorder_config &config) {
+inline void writeTinyMcap(const std::string &path, uint32_t frames, const sphc_recorder_config &config,
+                          bool with_amplitudes = false) {
   OpenRecorder recorder(path, config);
   ASSERT_EQ(recorder.status(), SPHC_OK) << recorder.message();
-  addTinyFrames(recorder.get(), frames);
+  addTinyFrames(recorder.get(), frames, with_amplitudes);
   EXPECT_EQ(recorder.close(), SPHC_OK) << recorder.message();
 }
 
