@@ -67,6 +67,17 @@ class DriverContract : public ::testing::TestWithParam<Driver> {
     EXPECT_STRNE(message(), "");
   }
 
+  // Whether an acquire that gives nothing comes back so soon.  A busy machine makes some of them longer, not all.
+  bool givesUpWithin(Clock::duration most, uint32_t timeout_us) const {
+    for (int i = 0; i < 10; ++i) {
+      sphc_capture capture = emptyCapture();
+      const Clock::time_point begin = Clock::now();
+      EXPECT_EQ(opened_.source.acquire(opened_.source.self, timeout_us, &capture), SPHC_AGAIN) << message();
+      if (Clock::now() - begin < most) return true;
+    }
+    return false;
+  }
+
   static bool ends() { return GetParam().captures_until_end != 0 || GetParam().may_end; }
 
   // Up to `count` captures, each shown and then released.  Fewer only where the driver has an end.
@@ -452,6 +463,33 @@ TEST_P(DriverContract, ComesBackWithinTheTimeout) {
   }
 }
 
+// Without a timeout: nothing yet, or a capture that waits already.  One that blocks until the next capture comes
+// never says SPHC_AGAIN, and takes as long as the captures' own times are apart.  One answer in time is enough: a
+// busy machine delays others.
+TEST_P(DriverContract, DoesNotWaitForTheNextCapture) {
+  if (ends()) GTEST_SKIP() << "a recording may take its time to read an image";
+  struct Last {
+    Clock::time_point came;
+    int64_t time_ns;
+  };
+  constexpr auto kAtOnce = std::chrono::milliseconds(2);  // of a source that makes captures whenever it is asked
+  std::map<sphc_stream, Last> last;
+  ASSERT_EQ(start(), SPHC_OK);
+  for (int i = 0; i < 60; ++i) {
+    sphc_capture capture = emptyCapture();
+    const sphc_status status = opened_.source.acquire(opened_.source.self, 0, &capture);
+    const Clock::time_point now = Clock::now();
+    if (status == SPHC_AGAIN) return;
+    ASSERT_EQ(status, SPHC_OK) << message();
+    release(capture);
+    const auto [it, is_first] = last.emplace(capture.stream, Last{now, capture.time_ns});
+    const auto apart = std::chrono::nanoseconds(capture.time_ns - it->second.time_ns);
+    if (!is_first && now - it->second.came < std::max<Clock::duration>(apart / 2, kAtOnce)) return;
+    it->second = {now, capture.time_ns};
+  }
+  ADD_FAILURE() << "with a timeout of 0 us every acquire blocks for the next capture";
+}
+
 TEST_P(DriverContract, SaysAgainWhileNothingComes) {
   if (!opened_.stall) GTEST_SKIP() << "cannot stall";
   ASSERT_EQ(start(), SPHC_OK);
@@ -464,6 +502,8 @@ TEST_P(DriverContract, SaysAgainWhileNothingComes) {
     if (status == SPHC_OK) release(capture);
   }
   EXPECT_EQ(status, SPHC_AGAIN) << message();
+  EXPECT_TRUE(givesUpWithin(std::chrono::milliseconds(5), 0));
+  EXPECT_TRUE(givesUpWithin(std::chrono::microseconds(2 * kTimeoutUs), kTimeoutUs));
 }
 
 TEST_P(DriverContract, IsLostOnceUnplugged) {

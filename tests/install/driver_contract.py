@@ -10,10 +10,15 @@ import sys
 from follow_page import Page, follow_blocks, options_of, section
 
 DRIVER = "MyCamera"
-# What of the sample is replaced by what, and the one case that is to see it.
+# What of the sample is replaced by what, and the one case that is to see it.  The last waits for most of a period,
+# whatever timeout it is given.
 FAULTS = (("  endLoans(sampleOf(self));\n", "", "EndsEveryLoanAtStop"),
           (" && slot.pixels == capture->image.data", "", "IgnoresTheReleaseOfAnothersCapture"),
-          ("capture->sequence = frame;", "", "CountsTheCapturesOfAStreamUpwards"))
+          ("capture->sequence = frame;", "", "CountsTheCapturesOfAStreamUpwards"),
+          ("  slot->token = ++sample->last_token;\n",
+           "  std::this_thread::sleep_for(std::chrono::milliseconds(12));\n  slot->token = ++sample->last_token;\n",
+           "DoesNotWaitForTheNextCapture"))
+NEEDED = "#include <cstring>\n"  # what the faults include goes before it
 
 
 def failed_cases(folder):
@@ -30,7 +35,8 @@ def main(options):
     for old, new, case in FAULTS:
         if whole.count(old) != 1:
             sys.exit(f"the sample has \"{old}\" {whole.count(old)} times")
-        driver.write_text(whole.replace(old, new), encoding="utf-8")
+        broken = whole.replace(old, new).replace(NEEDED, "#include <chrono>\n" + NEEDED + "#include <thread>\n")
+        driver.write_text(broken, encoding="utf-8")
         failed = failed_cases(options.folder)
         if failed != [case]:
             wrong.append(f"without \"{old.strip()}\" these cases fail: {failed} instead of {case}")
