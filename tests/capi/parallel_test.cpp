@@ -1,7 +1,7 @@
 // config.parallel: a frame by several threads gives the bytes of one.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <thread>
@@ -34,10 +34,11 @@ void runOnThreads(void *, uint32_t count, sphc_task_fn task, void *task_data) {
   for (std::thread &thread : threads) thread.join();
 }
 
-int64_t steadyNs(void *) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
+// Goes on by a microsecond whenever one of the threads reads it.
+struct SharedClock {
+  std::atomic<int64_t> reads{0};
+  static int64_t read(void *user) { return 1000 * ++static_cast<SharedClock *>(user)->reads; }
+};
 
 void expectSame(const Answer &a, const Answer &b) {
   EXPECT_EQ(a.status, b.status);
@@ -123,20 +124,32 @@ TEST_F(ParallelFrames, SameBytesInTwoHalves) {
 
 // The clock is read by all of the threads.
 TEST_F(ParallelFrames, EndAtTheirDeadline) {
-  TaskThreads threads(3);
-  sphc_localizer_config config = inTasks(3, TaskThreads::run, &threads);
-  config.clock = steadyNs;
+  constexpr uint32_t kTasks = 3, kLastReads = 20;  // of each task, once time is over
+  constexpr int64_t kMostReads = 10000;
+  TaskThreads threads(kTasks);
+  SharedClock clock;
+  sphc_localizer_config config = inTasks(kTasks, TaskThreads::run, &threads);
+  config.clock = SharedClock::read;
+  config.clock_user = &clock;
   Session session(config, 0.5, 2);
-  for (const uint32_t deadline_us : {1u, 500u, 2000u, 20000000u})
+  for (const uint32_t deadline_us : {1u, 30u, 100u, 200u, 20000000u})
     for (const auto &each : frames_) {
       sphc_localizer_frame frame = each->frame;
       frame.deadline_us = deadline_us;
       sphc_localizer_result result = spherecloud::emptyResult();
+      const int64_t before = clock.reads;
       EXPECT_GE(sphc_localizer_process(session.localizer(), &frame, &result), SPHC_OK);
+      const int64_t reads = clock.reads - before;
+      if (deadline_us > kMostReads) {
+        EXPECT_EQ(result.cuts, 0u);
+        EXPECT_LT(reads, kMostReads);
+        EXPECT_GT(reads, 400);  // else the deadlines before were none
+        continue;
+      }
+      EXPECT_LE(reads, deadline_us + kLastReads * kTasks) << deadline_us;
+      EXPECT_NE(result.cuts, 0u) << deadline_us;
       if (deadline_us == 1) {
         EXPECT_EQ(result.outcome, SPHC_OUTCOME_DEADLINE);
-      } else if (deadline_us > 1000000) {
-        EXPECT_EQ(result.cuts, 0u);
       }
     }
 }
