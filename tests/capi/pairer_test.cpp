@@ -96,8 +96,68 @@ TEST_F(CInterfacePairer, ForbiddenCalls) {
   EXPECT_EQ(sphc_pairer_pop(pairer_, first.get(), second.get(), nullptr), SPHC_E_ARGUMENT);
   EXPECT_TRUE(first.untouched() && second.untouched());
   EXPECT_TRUE(dropped.untouched());
+  Output<sphc_pairer_counts> counts;
+  EXPECT_EQ(sphc_pairer_get_counts(nullptr, counts.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_get_counts(pairer_, nullptr), SPHC_E_ARGUMENT);
+  for (const uint32_t struct_size : {0u, 3u, uint32_t{sizeof(sphc_pairer_counts)} - 8}) {
+    Output<sphc_pairer_counts> sized;
+    sized->struct_size = struct_size;
+    EXPECT_EQ(sphc_pairer_get_counts(pairer_, sized.get()), SPHC_E_STRUCT_SIZE) << struct_size;
+    sized->struct_size = counts->struct_size;
+    EXPECT_TRUE(sized.untouched()) << struct_size;
+  }
   sphc_pairer_flush(nullptr);
   sphc_pairer_fini(nullptr);
+}
+
+// Each of them another number, so that none stands in the place of another.
+TEST_F(CInterfacePairer, CountsPairsDropsAndLosses) {
+  ASSERT_EQ(init(), SPHC_OK);
+  const auto push = [&](sphc_stream stream, int64_t time_ms, uint32_t sequence) {
+    sphc_capture pushed = capture(stream, 1000000 * time_ms);
+    pushed.sequence = sequence;
+    EXPECT_EQ(sphc_pairer_push(pairer_, &pushed), SPHC_OK) << time_ms;
+    sphc_capture color = {}, depth = {}, dropped = {};
+    do {
+      dropped.stream = SPHC_STREAM_NONE;
+    } while (sphc_pairer_pop(pairer_, &color, &depth, &dropped) == SPHC_OK || dropped.stream != SPHC_STREAM_NONE);
+  };
+  uint32_t color = 0, depth = 0;
+  for (const int64_t time_ms : {0, 30, 60, 90, 120}) {
+    push(SPHC_STREAM_COLOR, time_ms, color++);
+    push(SPHC_STREAM_DEPTH, time_ms, depth++);
+  }
+  push(SPHC_STREAM_DEPTH, 140, depth++);  // overtaken by the next two
+  push(SPHC_STREAM_DEPTH, 145, depth++);
+  push(SPHC_STREAM_COLOR, 150, color++);
+  push(SPHC_STREAM_DEPTH, 150, depth++);
+  push(SPHC_STREAM_COLOR, 250, color += 7);  // seven never came, nor did eight; too far from each other
+  push(SPHC_STREAM_DEPTH, 350, depth += 8);
+  for (int64_t time_ms = 380; time_ms < 380 + 7 * 30; time_ms += 30) push(SPHC_STREAM_DEPTH, time_ms, ++depth);
+  struct {
+    sphc_pairer_counts its;
+    uint8_t behind[8];
+  } told;
+  std::memset(&told, 0x5A, sizeof told);
+  told.its.struct_size = sizeof told.its;
+  const auto expectTold = [&](sphc_pairer_drop last_drop, uint64_t full, uint64_t ended) {
+    ASSERT_EQ(sphc_pairer_get_counts(pairer_, &told.its), SPHC_OK);
+    EXPECT_EQ(told.its.struct_size, sizeof told.its);
+    EXPECT_EQ(told.its.last_drop, last_drop);
+    EXPECT_EQ(told.its.pairs, 6u);
+    EXPECT_EQ(told.its.too_far, 1u);
+    EXPECT_EQ(told.its.overtaken, 2u);
+    EXPECT_EQ(told.its.full, full);
+    EXPECT_EQ(told.its.ended, ended);
+    EXPECT_EQ(told.its.color_lost, 7u);
+    EXPECT_EQ(told.its.depth_lost, 8u);
+    for (const uint8_t byte : told.behind) EXPECT_EQ(byte, 0x5A);
+  };
+  expectTold(SPHC_DROP_FULL, 5, 0);
+  sphc_pairer_flush(pairer_);
+  sphc_capture none = {}, dropped = {};
+  while (sphc_pairer_pop(pairer_, &none, &none, &dropped), dropped.stream != SPHC_STREAM_NONE) continue;
+  expectTold(SPHC_DROP_ENDED, 5, 3);
 }
 
 }  // namespace

@@ -122,6 +122,34 @@ TEST(Wrapper, MapsAreCountedAndPlaced) {
   EXPECT_TRUE(localizer.setMapTransform(7, spherecloud::identity(), 0.01, 0.1).ok());
   EXPECT_TRUE(localizer.removeMapTransform(7).ok());
   expectMentions(localizer.removeMapTransform(8).text(), "no map with id 8");
+  expectMentions(localizer.removeMap(8).text(), "no map with id 8");
+  EXPECT_EQ(localizer.mapCount(), 1u);
+  EXPECT_TRUE(localizer.removeMap(7).ok());
+  EXPECT_EQ(localizer.mapCount(), 0u);
+  EXPECT_EQ(none.removeMap(7).code(), SPHC_E_ARGUMENT);
+}
+
+TEST(Wrapper, DepthBiasIsKnownFromBefore) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  config.depth_offset_sigma_m = 0.003;
+  config.depth_slope_sigma = 0.02;
+  const std::vector<uint8_t> file = sphc::test::makeSceneMap(config.rig.color_camera, 800, 4, 0.5).file;
+  Localizer localizer, none;
+  Map map;
+  ASSERT_TRUE(Map::open(file.data(), file.size(), &map).ok());
+  ASSERT_TRUE(Localizer::make(config, map, &localizer).ok());
+  const auto scene = sphc::test::sceneFrame(config, 1);
+  sphc_localizer_result result = spherecloud::emptyResult();
+  ASSERT_TRUE(localizer.process(scene->frame, &result).ok());
+  sphc_depth_bias known = result.depth;
+  known.offset_m = 0.002;
+  known.offset_sigma_m = 1e-6;
+  EXPECT_TRUE(localizer.setDepthBias(known).ok());
+  ASSERT_TRUE(localizer.process(scene->frame, &result).ok());
+  EXPECT_NEAR(result.depth.offset_m, 0.002, 1e-4);
+  known.slope = 0.6;
+  expectMentions(localizer.setDepthBias(known).text(), "depth.slope");
+  EXPECT_EQ(none.setDepthBias(known).code(), SPHC_E_ARGUMENT);
 }
 
 TEST(Wrapper, CamerasAreMadeAndChecked) {
