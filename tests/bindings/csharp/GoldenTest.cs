@@ -7,13 +7,13 @@ internal static class GoldenTest {
   private delegate bool Player(Localizer localizer, LocalizerFrame frame, out LocalizerResult result);
 
   public static void WholeFramesAreThoseOfC() {
-    Play((Localizer localizer, LocalizerFrame frame, out LocalizerResult result) => localizer.Process(frame, out result));
+    Play(Process);
   }
 
   public static void FramesOnSeveralThreadsAreThoseOfC() {
     LocalizerConfig config = Session.Config();
     config.ParallelTasks = 3;
-    Play((Localizer localizer, LocalizerFrame frame, out LocalizerResult result) => localizer.Process(frame, out result), config);
+    Play(Process, config);
   }
 
   public static void HalvesOfFramesAreThoseOfC() {
@@ -39,6 +39,15 @@ internal static class GoldenTest {
       System.Runtime.InteropServices.Marshal.FreeHGlobal(memory);
       return localized;
     });
+  }
+
+  /// <summary>The next frame of the session, by a localizer that has seen those before; whether it was localized.</summary>
+  internal static bool Compare(Localizer localizer, int index) {
+    return Compare(localizer, Process, index);
+  }
+
+  private static bool Process(Localizer localizer, LocalizerFrame frame, out LocalizerResult result) {
+    return localizer.Process(frame, out result);
   }
 
   private static void Play(Player player, LocalizerConfig config = null) {
