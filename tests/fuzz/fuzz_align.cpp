@@ -61,6 +61,7 @@ void align(const uint8_t *data, size_t bytes) {
   const sphc_aligned aligned = {sizeof aligned, 2 * width,        width, width, depth.data(),
                                 mask.data(),    confidence.data()};
   if (sphc_aligner_process(aligner, &image, &aligned) != SPHC_OK) broken("a fitting image is aligned");
+  accept();
   check(config, depth, mask, confidence);
   if (!memory.guardsIntact()) broken("no byte beyond the memory handed over is touched");
 }

@@ -13,6 +13,7 @@ void calibration(const uint8_t *data, size_t bytes) {
   const std::vector<char> text(data, data + bytes);  // exactly sized, not terminated
   const sphc_status status = sphc_calibration_parse(text.data(), text.size(), "fuzz.json", &parsed, &message);
   if (status == SPHC_OK) {
+    accept();
     if (sphc_rig_check(&parsed, &message) != SPHC_OK) broken("what is read passes the check");
   } else {
     if (status > 0 || !message.text[0]) broken("a refusal is a failure that explains itself");

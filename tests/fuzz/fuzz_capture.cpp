@@ -67,6 +67,7 @@ class Pairing {
         takeBack(depth);
         if (color.stream != SPHC_STREAM_COLOR || depth.stream != SPHC_STREAM_DEPTH)
           broken("a pair is of both streams");
+        accept();
       } else if (dropped.stream != SPHC_STREAM_NONE) {
         takeBack(dropped);
       } else {
@@ -120,6 +121,7 @@ void clockMapper(const uint8_t *data, size_t bytes) {
     arrival_ns = anyTime(arrival_ns, &reader);
     if (sphc_clock_mapper_add(mapper, source_ns, arrival_ns) < 0) broken("a sample is taken");
     checkMapping(mapper, config);
+    accept();
     sphc_clock_mapper_map(mapper, anyTime(source_ns, &reader), &host_ns);
   }
   sphc_clock_mapper_fini(&mapper);

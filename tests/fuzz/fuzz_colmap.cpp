@@ -50,12 +50,16 @@ void colmap(const uint8_t *data, size_t bytes) {
         if (!image.keypoints_px.at(o.keypoint).allFinite() || !model.cameras.count(image.camera))
           broken("links of a model that is read lead somewhere");
       }
+    accept();
   });
 }
 
 void colmapDatabase(const uint8_t *data, size_t bytes) {
   const NamedFile file(data, bytes);
-  refuseOrDo([&file] { describeFromDatabase(test::tinyColmapModel(1), file.path()); });
+  refuseOrDo([&file] {
+    describeFromDatabase(test::tinyColmapModel(1), file.path());
+    accept();
+  });
 }
 
 }  // namespace sphc::fuzz

@@ -68,9 +68,12 @@ struct Config {
     config.clock_user = &now_ns;
     config.parallel = nullptr;
     config.parallel_user = nullptr;
-    config.cameras = parts & 32 ? nullptr : cameras.fill(camera(), config.camera_count, reader);
+    // An array where there are cameras, or the other way about.
+    const bool has_cameras = (config.camera_count > 0) != ((parts & 32) != 0),
+               has_depth_cameras = (config.depth_camera_count > 0) != ((parts & 64) != 0);
+    config.cameras = has_cameras ? cameras.fill(camera(), config.camera_count, reader) : nullptr;
     config.depth_cameras =
-        parts & 64 ? nullptr : depth_cameras.fill(depthCamera(), config.depth_camera_count, reader);
+        has_depth_cameras ? depth_cameras.fill(depthCamera(), config.depth_camera_count, reader) : nullptr;
     if (parts & 128) roomy.behind[reader->next()] = reader->next() % 2;
   }
   const sphc_localizer_config *get() const { return &roomy.its; }
@@ -112,9 +115,9 @@ void playFrames(sphc_localizer *localizer, const sphc_localizer_config &config, 
     view.struct_size = sizeof view;
     view.depth = frame.depth;
   }
-  frame.views = views;
+  frame.views = config.camera_count ? views : nullptr;
   frame.view_count = std::min(config.camera_count, SPHC_CAMERAS_MAX);
-  frame.depth_views = depth_views;
+  frame.depth_views = config.depth_camera_count ? depth_views : nullptr;
   frame.depth_view_count = std::min(config.depth_camera_count, SPHC_DEPTH_CAMERAS_MAX);
   for (uint32_t i = 0; i < kFrames; ++i) {
     frame.color_time_ns += 33000000;
@@ -126,6 +129,7 @@ void playFrames(sphc_localizer *localizer, const sphc_localizer_config &config, 
     const sphc_status status = sphc_localizer_process(localizer, &frame, &result);
     if (status >= 0 ? !isFilled(result) : !sphc_localizer_message(localizer)[0])
       broken("a frame has a finite answer, or a refusal that explains itself");
+    if (status == SPHC_OK) accept();
   }
 }
 

@@ -21,6 +21,7 @@ void readAndJoin(Format format, const TextFile &file, const TextFile *rigs) {
   if (formatHolds(format, joined.color_camera) && formatHolds(format, joined.depth_camera) &&
       writeCalibration(format, joined).empty())
     broken("what a format holds is written");
+  accept();
 }
 
 }  // namespace

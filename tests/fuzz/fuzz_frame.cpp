@@ -77,6 +77,7 @@ void frame(const uint8_t *data, size_t bytes) {
   if (status == SPHC_OK || status == SPHC_NOT_LOCALIZED) {
     if (!isFilled(result) || result.inliers > result.keypoints)
       broken("a result has finite numbers that fit together");
+    if (status == SPHC_OK) accept();
   } else if (status > 0 || !sphc_localizer_message(sessionOf(kind).localizer())[0]) {
     broken("a refusal is a failure that explains itself");
   }

@@ -27,6 +27,33 @@ namespace {
 
 constexpr uint32_t kLutSide = 8;
 
+void readHololens(uint8_t which, const recording::ByteView &view) {
+  switch (which % 5) {
+    case 0:
+      for (const recording::PvFrame &frame : recording::pvFileFrom(textOf(view)).frames)
+        if (frame.time_ns < 0) broken("times are after 1970");
+      return;
+    case 1:
+      recording::rigTrackFrom(textOf(view));
+      return;
+    case 2:
+      recording::sensorFromRigFrom(textOf(view));
+      return;
+    case 3: {
+      const recording::ImageSize size = recording::pgmSizeOf(view);
+      std::vector<uint16_t> pixels(size_t{size.width} * size.height);
+      recording::decodePgm(view, pixels.data());
+      return;
+    }
+    default:
+      const recording::ImageSize size = {kLutSide, kLutSide};
+      const recording::DepthLut lut =
+          which / 5 % 2 ? recording::DepthLut::ofRays(view, size) : recording::DepthLut::ofPlanePoints(view, size);
+      std::vector<uint16_t> depth(kLutSide * kLutSide);
+      lut.toPinhole(std::vector<uint16_t>(depth.size(), UINT16_MAX), depth.data());
+  }
+}
+
 }  // namespace
 
 void stray(const uint8_t *data, size_t bytes) {
@@ -36,6 +63,7 @@ void stray(const uint8_t *data, size_t bytes) {
   try {
     if (data[0] % 2) {
       recording::strayCameraFrom(text);
+      accept();
       return;
     }
     const recording::StrayOdometry odometry = recording::strayOdometryFrom(text);
@@ -44,6 +72,7 @@ void stray(const uint8_t *data, size_t bytes) {
       if (i > 0 && frame.time_ns <= odometry.frames[i - 1].time_ns) broken("times increase");
       if (frame.world_from_camera && !std::isfinite(frame.world_from_camera->t_m[0])) broken("poses are finite");
     }
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_ARGUMENT) broken("the failure is the text's");
   }
@@ -150,6 +179,7 @@ void record3d(const uint8_t *data, size_t bytes) {
       broken("a frame has a time and an entry of poses");
     for (size_t i = 1; i < metadata.time_ns.size(); ++i)
       if (metadata.time_ns[i] <= metadata.time_ns[i - 1]) broken("times increase");
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_ARGUMENT) broken("the failure is the text's");
   }
@@ -195,6 +225,7 @@ void lzfse(const uint8_t *data, size_t bytes) {
   try {
     recording::decodeLzfse(recording::viewOf(exact), kMostBytes, out);
     if (out.empty() || out.size() > kMostBytes) broken("something comes out, and no more than was allowed");
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the bytes'");
   }
@@ -207,32 +238,9 @@ std::vector<std::vector<uint8_t>> lzfseSeeds() {
 void hololens(const uint8_t *data, size_t bytes) {
   if (bytes == 0) return;
   const std::vector<uint8_t> exact(data + 1, data + bytes);
-  const recording::ByteView view = recording::viewOf(exact);
   try {
-    switch (data[0] % 5) {
-      case 0:
-        for (const recording::PvFrame &frame : recording::pvFileFrom(textOf(view)).frames)
-          if (frame.time_ns < 0) broken("times are after 1970");
-        return;
-      case 1:
-        recording::rigTrackFrom(textOf(view));
-        return;
-      case 2:
-        recording::sensorFromRigFrom(textOf(view));
-        return;
-      case 3: {
-        const recording::ImageSize size = recording::pgmSizeOf(view);
-        std::vector<uint16_t> pixels(size_t{size.width} * size.height);
-        recording::decodePgm(view, pixels.data());
-        return;
-      }
-      default:
-        const recording::ImageSize size = {kLutSide, kLutSide};
-        const recording::DepthLut lut = data[0] / 5 % 2 ? recording::DepthLut::ofRays(view, size)
-                                                        : recording::DepthLut::ofPlanePoints(view, size);
-        std::vector<uint16_t> depth(kLutSide * kLutSide);
-        lut.toPinhole(std::vector<uint16_t>(depth.size(), UINT16_MAX), depth.data());
-    }
+    readHololens(data[0], recording::viewOf(exact));
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_ARGUMENT && failure.status() != SPHC_E_DEVICE)
       broken("the failure is the file's");
@@ -266,6 +274,7 @@ void hl2ss(const uint8_t *data, size_t bytes) {
       if (packet.start > bytes || packet.bytes > bytes - packet.start) broken("packets lie in the file");
       if (packet.pose && !std::isfinite(packet.pose->t_m[0])) broken("poses are finite");
     }
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_UNSUPPORTED)
       broken("the failure is the file's");

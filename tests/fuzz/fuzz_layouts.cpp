@@ -33,6 +33,7 @@ void openFolder(const test::TempFolder &folder, bool has_images = false) {
     if (status > 0 || !message.text[0] || replay) broken("a refusal is a failure that explains itself");
     return;
   }
+  accept();
   for (uint32_t i = 0; i < std::min(sphc_replay_frame_count(replay), 20u); ++i) {
     sphc_localizer_frame frame;
     const sphc_status read = sphc_replay_read_frame(replay, i, &frame, &message);
@@ -59,9 +60,10 @@ void writeHl2ssCalibration(const test::TempFolder &folder) {
 }
 
 std::string hl2ssColor(uint8_t profile) {
-  test::Hl2ssBytes file = test::Hl2ssBytes::ofVideo(16, 8, profile);
+  test::Hl2ssBytes file = test::Hl2ssBytes::ofVideo(16, 16, profile);
   for (const uint64_t ticks : {1000u, 301000u})
-    file.addColor(ticks, std::string(64 * 12, 'c'), {20, 20, 8, 4}, 16, 8, test::hl2ssMatrixOf({{1, 0, 0, 0}, {}}));
+    file.addColor(ticks, std::string(64 * 24, 'c'), {20, 20, 8, 8}, 16, 16,
+                  test::hl2ssMatrixOf({{1, 0, 0, 0}, {}}));
   return file.bytes();
 }
 

@@ -21,8 +21,9 @@ void readAll(const sphc_map *map, size_t bytes) {
   }
 }
 
-// Small, so that a run is short; every keypoint matches something.
-sphc_localizer_config smallConfig() {
+// Small, so that a run is short; every keypoint matches something.  Not named as that of arguments.h, which it
+// would hide from the other files of a unity build.
+sphc_localizer_config mapConfig() {
   sphc_localizer_config config = test::sceneConfig();
   config.rig.color_camera = test::pinhole(128, 96, 107);
   config.rig.depth_camera = test::pinhole(64, 48, 48);
@@ -31,7 +32,7 @@ sphc_localizer_config smallConfig() {
 }
 
 void localizeIn(const sphc_map *map) {
-  static const sphc_localizer_config of_visible = smallConfig();
+  static const sphc_localizer_config of_visible = mapConfig();
   sphc_map_info info = {};
   info.struct_size = sizeof info;
   sphc_map_get_info(map, &info);
@@ -68,6 +69,7 @@ void open(const std::vector<uint8_t> &file, bool localizes) {
   sphc_message message = {};
   const sphc_status status = sphc_map_init(memory, sizeof memory, start, file.size(), &map, &message);
   if (status == SPHC_OK) {
+    accept();
     readAll(map, file.size());
     if (localizes) localizeIn(map);
     sphc_map_fini(&map);

@@ -39,6 +39,7 @@ void ownerNote(const uint8_t *data, size_t bytes) {
     const OwnerNote note = readOwnerNote(file.path());
     if (!note.centre_in_world_m.allFinite() || !(note.eta > 0 && note.eta <= 1))
       broken("a note that is read makes sense");
+    accept();
   });
 }
 
@@ -54,6 +55,7 @@ void ledger(const uint8_t *data, size_t bytes) {
     for (const host::Place &place : Ledger::openToRead(file.path()).places())
       for (const PlacePoint &point : place.points)
         if (!point.seen.position_m.allFinite()) broken("points that are read have positions");
+    accept();
   });
   refuseOrDo([&file] {
     Ledger opened = Ledger::openOrMake(file.path(), nullptr);

@@ -31,6 +31,7 @@ void readAll(sphc_replay *replay) {
     const sphc_status status = sphc_replay_read_frame(replay, i, &frame, &message);
     if (status > 0 || (status < 0 && !message.text[0])) broken("an image is read, or the failure explains itself");
     if (status == SPHC_OK) readAmplitude(frame.amplitude);
+    if (status == SPHC_OK) accept();
   }
   sphc_source source;
   sphc_replay_source(replay, &source);
@@ -85,6 +86,7 @@ void message(const uint8_t *data, size_t bytes) {
     recording::MessageDecoder().decode(kind, recording::viewOf(exact), camera,
                                        is_color ? SPHC_FORMAT_BGR8 : numbers,
                                        reinterpret_cast<uint8_t *>(pixels.data()));
+    accept();
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the image's");
   }
@@ -102,6 +104,7 @@ void rvl(const uint8_t *data, size_t bytes) {
   encoded.resize(recording::encodeRvl(depth.data(), depth.size(), encoded.data()));
   if (!recording::decodeRvl(recording::viewOf(encoded), again.data(), again.size()) || again != depth)
     broken("what was decoded can be encoded");
+  accept();
 }
 
 }  // namespace sphc::fuzz

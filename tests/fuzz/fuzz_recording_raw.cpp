@@ -33,6 +33,7 @@ void readFrame(const sphc_raw &raw, uint32_t index, std::vector<uint8_t> *memory
   const sphc_image &color = recorded.frame.color;
   const auto *end = static_cast<const uint8_t *>(color.data) + size_t{color.stride_bytes} * color.height;
   if (end != memory->data() + raw.frame_bytes) broken("the images fill the memory that was asked for");
+  accept();
 }
 
 }  // namespace

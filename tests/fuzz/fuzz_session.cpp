@@ -9,6 +9,7 @@ namespace sphc::fuzz {
 namespace {
 
 constexpr uint32_t kMaps = 3, kViewpoints = 3, kMostCalls = 40;
+constexpr uint32_t kKeypoints = 128;  // its cameras share them
 
 // A second camera, turned a little, of images as large as the first one's.
 const sphc_localizer_camera &sideCamera() {
@@ -42,6 +43,7 @@ void runBackwards(void *, uint32_t count, sphc_task_fn task, void *task_data) {
 
 sphc_localizer_config trackingConfig() {
   sphc_localizer_config config = smallConfig();
+  config.max_keypoints = kKeypoints;
   config.cameras = &sideCamera();
   config.camera_count = 1;
   config.depth_cameras = &secondDepthCamera();
@@ -172,7 +174,9 @@ class Play {
   }
   void process() {
     const sphc_localizer_frame frame = anyFrame();
-    isAnswered(sphc_localizer_process(localizer_, &frame, &result_));
+    const sphc_status status = sphc_localizer_process(localizer_, &frame, &result_);
+    isAnswered(status);
+    if (status == SPHC_OK) accept();
   }
   void processInHalves() {
     const sphc_localizer_frame frame = anyFrame();
@@ -250,7 +254,7 @@ class Play {
     const uint32_t capacity = std::min<uint32_t>(reader_.next(), sizeof room / std::max(stride_bytes, 1u));
     sphc_localizer_observations(localizer_, reinterpret_cast<sphc_localizer_observation *>(room), stride_bytes,
                                 capacity, &count);
-    if (count > smallConfig().max_keypoints) broken("no more observations than keypoints");
+    if (count > kKeypoints) broken("no more observations than keypoints");
   }
   void rank() {
     sphc_localizer_hypothesis list[SPHC_HYPOTHESES_MAX];

@@ -78,6 +78,7 @@ void captureSome(const sphc_source &source) {
     }
     if (capture.time_ns <= last_ns) broken("time goes on");
     last_ns = capture.time_ns;
+    accept();
     readAll(capture.image);
     if (i % 2) source.release(source.self, &capture);
   }

@@ -50,8 +50,9 @@ std::vector<uint8_t> infraredMap() {
 std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
   const test::SceneImages images = test::renderScene(test::pinhole(96, 72, 80), test::pinhole(48, 40, 36),
                                                      test::sceneViewpoint(viewpoint), Rigid());
-  std::vector<uint8_t> seed(11 + 320 * 96);  // every field right, grey
-  std::copy(images.gray.begin(), images.gray.end(), seed.begin() + 11);
+  constexpr size_t kFields = 76;  // all right where they are zeros: a grey image, no prior
+  std::vector<uint8_t> seed(kFields + 320 * 96);
+  std::copy(images.gray.begin(), images.gray.end(), seed.begin() + kFields);
   for (uint16_t mm : images.depth_mm) {
     seed.push_back(static_cast<uint8_t>(mm));
     seed.push_back(static_cast<uint8_t>(mm >> 8));
@@ -59,28 +60,41 @@ std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
   return seed;
 }
 
-// Calls with sound arguments; Play::call and what it calls read them in this order.
-std::vector<uint8_t> sessionSeed(uint8_t viewpoint) {
-  const std::vector<uint8_t> set_maps = {2, 0, 0, 0, 2, 1, 0, 1}, frame = {0, viewpoint, 33, 0, 255},
-                             place = {5, 0, 0, 60, 0, 128, 0, 192, 0, 128, 0, 129, 0, 129, 255},
-                             predict = {6, 0, 66}, parameter = {7, 0, 0, 0, 0, 184}, bias = {8, 255},
-                             observe = {9, 79, 0}, confidence = {10, 0, 131, 0, 134},
-                             camera = {11, 0, 0, 60, 0, 140, 0, 128, 0, 120, 60, 0, 128, 0, 130, 0, 140},
-                             map = {12, 1, 0, 0, 130, 0, 140, 0, 190}, remove = {4, 0, 0}, reset = {15},
-                             rank = {14}, halves = {1, viewpoint, 33, 0, 255, 0},
-                             given = {13, 255, 0, 0, viewpoint, 33, 0, 255, 1, viewpoint, 0, 0, 255, 255};
-  std::vector<uint8_t> seed;
-  for (const auto &call :
-       {set_maps, frame,      rank,   frame, predict, place, frame,  bias,  frame,   parameter, frame,
-        observe,  confidence, camera, map,   halves,  given, remove, frame, predict, reset,     halves})
-    seed.insert(seed.end(), call.begin(), call.end());
-  return seed;
+using Bytes = std::vector<uint8_t>;
+
+Bytes joined(const std::vector<Bytes> &parts) {
+  Bytes all;
+  for (const Bytes &part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+// Calls with sound arguments; Play::call and what it calls read them in this order.  The further cameras have
+// images or not.
+Bytes sessionSeed(uint8_t viewpoint, bool has_views) {
+  const uint8_t image = has_views ? 255 : 0;
+  const Bytes views = {0, 0, viewpoint, 0, image, 255, 255, 0, 0, 0, viewpoint, 0, image, 255, 0},
+              images = joined({{viewpoint, 33, 0}, views, {255}}), set_maps = {2, 0, 0, 0, 2, 1, 0, 1},
+              frame = joined({{0}, images}), place = {5, 0, 0, 60, 0, 128, 0, 192, 0, 128, 0, 129, 0, 129, 255},
+              predict = {6, 0, 66}, parameter = {7, 0, 0, 0, 0, 184}, bias = {8, 255}, observe = {9, 79, 0},
+              confidence = {10, 0, 131, 0, 134},
+              camera = {11, 0, 0, 60, 0, 140, 0, 128, 0, 120, 60, 0, 128, 0, 130, 0, 140},
+              map = {12, 1, 0, 0, 130, 0, 140, 0, 190}, remove = {4, 0, 0}, reset = {15}, rank = {14},
+              halves = joined({{1}, images, {0}}), given = joined({{13, 255, 0, 0}, images, {1}, images, {255}});
+  return joined({set_maps, frame,      rank,   frame, predict, place, frame,  bias,  frame,   parameter, frame,
+                 observe,  confidence, camera, map,   halves,  given, remove, frame, predict, reset,     halves});
 }
 
 // Captures of both streams by turns, all of whose fields are sound.
 std::vector<uint8_t> pairerSeed() {
   std::vector<uint8_t> seed = {3, 0, 0, 100};
-  for (uint8_t i = 0; i < 20; ++i) seed.insert(seed.end(), {0, i, 0, 16, 0, 0, 0, 0, 0});
+  for (uint8_t i = 0; i < 20; ++i) seed.insert(seed.end(), {0, i, 0, 8, 0, 0, 0, 0, 0});
+  return seed;
+}
+
+// The usual config, then samples 33 ms apart and times to be mapped.
+std::vector<uint8_t> clockMapperSeed() {
+  std::vector<uint8_t> seed = {0, 200, 200, 200, 200};
+  for (int i = 0; i < 20; ++i) seed.insert(seed.end(), {0, 33, 0, 33, 0, 5});
   return seed;
 }
 
@@ -152,6 +166,12 @@ void broken(const char *promise) {
   std::abort();
 }
 
+namespace {
+uint64_t accepted_count = 0;
+}
+void accept() { ++accepted_count; }
+uint64_t acceptedCount() { return accepted_count; }
+
 std::vector<Target> allTargets() {
   std::vector<Target> targets = {
       {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
@@ -159,10 +179,12 @@ std::vector<Target> allTargets() {
       {"encryption", encryption, {test::goldenEncrypted()}},
       {"signature", signature, {signedMap(), test::bytesOfHex(test::kGoldenSignature)}},
       {"config", config, {std::vector<uint8_t>(200), std::vector<uint8_t>(200, 7), std::vector<uint8_t>(200, 130)}},
-      {"pairer", pairer, {std::vector<uint8_t>(100), pairerSeed()}},
-      {"clockMapper", clockMapper, {std::vector<uint8_t>(100, 9), std::vector<uint8_t>(400, 30)}},
+      {"pairer", pairer, {pairerSeed(), std::vector<uint8_t>(100)}},
+      {"clockMapper",
+       clockMapper,
+       {clockMapperSeed(), std::vector<uint8_t>(100, 9), std::vector<uint8_t>(400, 30)}},
       {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
-      {"session", session, {sessionSeed(0), sessionSeed(1)}},
+      {"session", session, {sessionSeed(0, false), sessionSeed(1, true)}},
       {"align",
        align,
        {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),

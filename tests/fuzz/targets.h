@@ -88,5 +88,8 @@ std::vector<Target> allTargets();
 
 // Ends the program: the target found a broken promise.
 [[noreturn]] void broken(const char *promise);
+// A target says that it took its bytes for what they are to be, and did not refuse them.
+void accept();
+uint64_t acceptedCount();
 
 }  // namespace sphc::fuzz
