@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>
@@ -9,6 +10,7 @@
 #include "host/recording/message_image.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/map_bytes.h"
 
 namespace sphc::fuzz {
 namespace {
@@ -23,6 +25,24 @@ void readAmplitude(const sphc_image &image) {
   if (copy.empty()) broken("amplitudes have pixels");
 }
 
+// Poses and accelerations, as they were recorded.
+void readMotion(const sphc_replay *replay) {
+  int64_t last_ns = INT64_MIN, time_ns = 0;
+  sphc_rigid pose;
+  for (uint32_t i = 0; sphc_replay_recorded_pose(replay, i, &time_ns, &pose) == SPHC_OK; ++i) {
+    if (i > 0 && time_ns <= last_ns) broken("poses come in order of time");
+    last_ns = time_ns;
+    double sum = 0;
+    for (double q : pose.q_wxyz) sum += q * q;
+    for (double t : pose.t_m) sum += 0 * t;
+    if (!(std::abs(sum - 1) < 1e-9)) broken("poses are finite, and their rotations of unit length");
+  }
+  double felt_mps2[3];
+  for (uint32_t i = 0; sphc_replay_acceleration(replay, i, &time_ns, felt_mps2) == SPHC_OK; ++i)
+    for (double felt : felt_mps2)
+      if (!std::isfinite(felt)) broken("accelerations are finite");
+}
+
 void readAll(sphc_replay *replay) {
   const uint32_t frames = std::min(sphc_replay_frame_count(replay), 20u);
   for (uint32_t i = 0; i < frames; ++i) {
@@ -33,6 +53,7 @@ void readAll(sphc_replay *replay) {
     if (status == SPHC_OK) readAmplitude(frame.amplitude);
     if (status == SPHC_OK) accept();
   }
+  readMotion(replay);
   sphc_source source;
   sphc_replay_source(replay, &source);
   source.start(source.self);
@@ -50,9 +71,7 @@ void readAll(sphc_replay *replay) {
   }
 }
 
-}  // namespace
-
-void recording(const uint8_t *data, size_t bytes) {
+void openAndRead(const uint8_t *data, size_t bytes) {
   const MemoryFile file(data, bytes);
   sphc_replay *replay = nullptr;
   sphc_message message = {};
@@ -63,6 +82,34 @@ void recording(const uint8_t *data, size_t bytes) {
   }
   readAll(replay);
   sphc_replay_close(&replay);
+}
+
+// An MCAP file without the checksums of its chunks and of its data: 0 says that there is none.
+bool dropChecksums(std::vector<uint8_t> *file) {
+  constexpr uint8_t kMagic[] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+  constexpr uint8_t kChunk = 0x06, kDataEnd = 0x0F;
+  constexpr uint64_t kHeadBytes = 9, kCrcInChunk = 24, kCrcBytes = 4;
+  if (file->size() < sizeof kMagic || !std::equal(std::begin(kMagic), std::end(kMagic), file->begin()))
+    return false;
+  for (uint64_t at = sizeof kMagic; file->size() - at > kHeadBytes;) {
+    const uint8_t op = (*file)[at];
+    const uint64_t content = at + kHeadBytes, left = file->size() - content, bytes = test::get64(*file, at + 1);
+    const uint64_t crc = op == kChunk ? kCrcInChunk : 0;
+    if ((op == kChunk || op == kDataEnd) && left >= crc + kCrcBytes)
+      std::fill_n(file->begin() + static_cast<ptrdiff_t>(content + crc), kCrcBytes, uint8_t{0});
+    if (bytes > left) break;
+    at = content + bytes;
+  }
+  return true;
+}
+
+}  // namespace
+
+void recording(const uint8_t *data, size_t bytes) {
+  openAndRead(data, bytes);
+  // And without checksums, else no changed byte of a chunk would ever be parsed.
+  std::vector<uint8_t> unchecked(data, data + bytes);
+  if (dropChecksums(&unchecked)) openAndRead(unchecked.data(), unchecked.size());
 }
 
 constexpr recording::Kind kImageKinds[] = {recording::Kind::kColorImage,   recording::Kind::kColorJpeg,
