@@ -272,6 +272,18 @@ TEST_F(FilesTest, AuditKeepsTheLedger) {
   expectKept(at("spherecloud.ledger"), audit + at("spherecloud.ledger"), kExitUsage, "--truth reads");
 }
 
+TEST_F(FilesTest, AnAuditTakesTheNetworksOfTheFolderThatItIsTold) {
+  fs::create_directory(at("networks"));
+  const std::string audit =
+      "audit " + at("room.sphc") + " --truth " + at("spherecloud.ledger") + " --quick --only inversion --networks ";
+  for (const auto &[folder, told] : {std::pair("networks", "networks/mixed.embedding.onnx cannot be read"),
+                                     {"none", "none is not a folder; give the one with *.onnx"}}) {
+    const Answer answer = runCommand(audit + at(folder));
+    EXPECT_EQ(answer.exit_code, kExitFailure) << folder;
+    EXPECT_THAT(answer.err, HasSubstr(told));
+  }
+}
+
 TEST_F(FilesTest, AnAuditsReportHasNoPictureOfAnAuditBefore) {
   const std::string audit = "audit " + at("room.sphc") + " --only file --report " + at("audit");
   ASSERT_EQ(runCommand(audit).exit_code, kExitAuditIncomplete);
@@ -490,8 +502,10 @@ TEST_F(FilesTest, WordsForNobodyGoIntoNoFile) {
 
 // Where the library knows the bounds, the command line is wrong all the same.
 TEST_F(FilesTest, AValueThatTheLocalizerRefusesIsWrongUse) {
-  for (const std::string option : {"--ratio 7", "--max-keypoints 1", "--probes -1", "--min-inliers nan",
-                                   "--max-iterations 1e9", "--depth-max 0", "--pixel-sigma 0", "--depth-min 7"}) {
+  for (const std::string option :
+       {"--ratio 7", "--max-keypoints 1", "--probes -1", "--min-inliers nan", "--max-iterations 1e9",
+        "--depth-max 0", "--pixel-sigma 0", "--depth-sigma nan", "--depth-sigma-per-m2 -1", "--map-sigma -1",
+        "--depth-mid -1", "--depth-offset-sigma -1", "--depth-slope-sigma -1", "--depth-min 7"}) {
     const Answer answer = runCommand("localize -r " + at("walk") + " -m " + at("room.sphc") + " " + option);
     EXPECT_EQ(answer.exit_code, kExitUsage) << option;
     EXPECT_THAT(answer.err, HasSubstr("--help")) << option;
