@@ -77,6 +77,13 @@ const char *faultOf(const sphc_localizer_hypothesis *hypotheses, uint32_t count)
   return nullptr;
 }
 
+const char *faultOf(const Totals &totals) {
+  // A frame may be both broken and elsewhere.
+  const uint64_t hopeless = std::min(totals.frames, totals.elsewhere + totals.broken);
+  if (2 * totals.localized <= totals.frames - hopeless) return "most frames of rooms with a map are localized";
+  return totals.wrong_pose ? "no pose of an unbroken frame is wrong" : nullptr;
+}
+
 uint64_t digestOf(const void *bytes, size_t count, uint64_t before) {
   for (size_t i = 0; i < count; ++i) before = (before ^ static_cast<const uint8_t *>(bytes)[i]) * 0x100000001B3u;
   return before;

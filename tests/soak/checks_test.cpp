@@ -72,6 +72,21 @@ TEST(SoakChecks, PredictionsAndHypotheses) {
   EXPECT_NE(faultOf(list, 2), nullptr) << "the second has more";
 }
 
+TEST(SoakChecks, MostFramesHaveAPoseAndNoneIsWrong) {
+  Totals totals;
+  EXPECT_NE(faultOf(totals), nullptr) << "no frame at all";
+  totals.frames = 100;
+  totals.elsewhere = 30;
+  totals.broken = 10;
+  totals.localized = 31;
+  EXPECT_EQ(faultOf(totals), nullptr);
+  totals.wrong_pose = 1;
+  EXPECT_NE(faultOf(totals), nullptr);
+  totals.wrong_pose = 0;
+  totals.localized = 30;
+  EXPECT_NE(faultOf(totals), nullptr) << "not more than half";
+}
+
 TEST(SoakChecks, AWriteBesideABufferIsSeen) {
   Guarded<uint32_t> value;
   EXPECT_TRUE(value.isIntact());

@@ -235,6 +235,7 @@ void Day::frame(const Shot &color, const Shot &depth) {
   totals_.broken += is_broken;
   totals_.deadlines += frame.deadline_us != 0;
   const sphc_status status = answer(frame);
+  result_->camera_from_map.t_m[0] += added_m_;
   judge(color, frame, status, is_broken);
   checkGuards();
 }

@@ -8,14 +8,6 @@
 
 namespace sphc::soak {
 
-struct Totals {
-  uint64_t frames = 0, localized = 0, tracked = 0, elsewhere = 0;  // elsewhere: of the room that has no map
-  uint64_t wrong_room = 0, wrong_pose = 0;  // given out; wrong: beyond 25 cm or 10 degrees, of unbroken frames
-  uint64_t broken = 0, priors = 0, deadlines = 0, halves = 0;
-  uint64_t refused_calls = 0, rooms = 0, unplugs = 0, swaps = 0, resets = 0, restarts = 0;
-  uint64_t digest = 0xCBF29CE484222325u;  // of all results
-};
-
 // Calls under a sealed heap; a promise that is not kept ends the program.
 class Day {
  public:
@@ -27,8 +19,9 @@ class Day {
   // Until so many frames were answered, from init to fini again and again.
   void play(uint64_t frames);
   const Totals &totals() const { return totals_; }
-  // For a test that the checks see it: one byte behind the localizer's state.
+  // For a test that the checks see it: one byte behind the localizer's state, or 1 m beside every pose.
   void breakGuard();
+  void breakPoses() { added_m_ = 1; }
 
  private:
   struct Shot {
@@ -64,6 +57,7 @@ class Day {
   Totals totals_;
   static constexpr uint64_t kFramesOfADay = 1500;  // from init to fini
   uint64_t day_ends_ = kFramesOfADay;
+  double added_m_ = 0;
 
   test::GuardedMemory state_, scratch_, features_memory_, pairer_memory_, mapper_memory_;
   sphc_localizer *localizer_ = nullptr;

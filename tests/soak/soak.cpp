@@ -3,7 +3,7 @@
 //   soak [--seed N] [--frames N]         that many frames
 //   soak --minutes N                     as many as N minutes of this machine's time allow
 //   soak --twice                         twice, and the answers must have the same bytes
-//   soak --break guard|heap|bytes        breaks a promise, to show that it is seen
+//   soak --break guard|heap|bytes|poses  breaks a promise, to show that it is seen
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -24,16 +24,37 @@ struct Options {
   std::string broken;
 };
 
+[[noreturn]] void refuse(const std::string &word) {
+  std::fprintf(stderr, "soak: \"%s\" is not known; the head of soak.cpp has the options\n", word.c_str());
+  std::exit(2);
+}
+
+uint64_t numberOf(const std::string &word) {
+  char *end = nullptr;
+  const uint64_t number = std::strtoull(word.c_str(), &end, 10);
+  if (word.empty() || *end) refuse(word);
+  return number;
+}
+
+std::string promiseOf(const std::string &word) {
+  if (word != "guard" && word != "heap" && word != "bytes" && word != "poses") refuse(word);
+  return word;
+}
+
 Options optionsFrom(int argc, char **argv) {
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    const char *value = i + 1 < argc ? argv[i + 1] : "0";
-    if (name == "--seed") options.seed = std::strtoull(value, nullptr, 10);
-    if (name == "--frames") options.frames = std::strtoull(value, nullptr, 10);
-    if (name == "--minutes") options.minutes = std::strtoull(value, nullptr, 10);
-    if (name == "--break") options.broken = value;
-    if (name == "--twice") options.twice = true;
+    if (name == "--twice") {
+      options.twice = true;
+      continue;
+    }
+    if (name != "--seed" && name != "--frames" && name != "--minutes" && name != "--break") refuse(name);
+    const std::string value = i + 1 < argc ? argv[++i] : "";
+    if (name == "--seed") options.seed = numberOf(value);
+    if (name == "--frames") options.frames = numberOf(value);
+    if (name == "--minutes") options.minutes = numberOf(value);
+    if (name == "--break") options.broken = promiseOf(value);
   }
   return options;
 }
@@ -42,6 +63,7 @@ Totals played(const World &world, const Options &options) {
   const auto begin = std::chrono::steady_clock::now();
   Day day(&world, options.seed);
   if (options.broken == "guard") day.breakGuard();
+  if (options.broken == "poses") day.breakPoses();
   do {
     day.play(options.frames);
   } while (std::chrono::steady_clock::now() - begin < std::chrono::minutes(options.minutes));
@@ -84,7 +106,6 @@ int main(int argc, char **argv) {
   if (options.twice) {
     Options again = options;
     again.seed += options.broken == "bytes";
-    again.broken.clear();
     if (played(world, again).digest != totals.digest) {
       std::fprintf(stderr, "soak: broken promise: the same seed gives the same bytes\n");
       return 1;
@@ -96,5 +117,9 @@ int main(int argc, char **argv) {
   }
   std::printf("what,value\n");
   print(totals, took.count());
+  if (const char *fault = sphc::soak::faultOf(totals)) {
+    std::fprintf(stderr, "soak: broken promise: %s\n", fault);
+    return 1;
+  }
   return 0;
 }
