@@ -263,13 +263,27 @@ def chains_of_every_command(serve):
     return server.chains
 
 
-def keep(path, measured):
-    """Rows of commands that were not measured stay."""
+def known_rows(path):
+    """By command."""
     rows = {}
     if path.exists():
         with path.open(newline="") as file:
             for row in list(csv.reader(file))[1:]:
                 rows.setdefault(row[0], []).append(row)
+    return rows
+
+
+def changed_kinds(measured, known):
+    """Kinds of calls that commands do not make any more, or make now, so that what is tried is not what the ledger says."""
+    for name, rows in measured.items():
+        now, before = ({row[1] for row in some} for some in (rows, known.get(name, [])))
+        yield from ("%s makes no call %s any more, or it is not seen" % (name, call) for call in sorted(before - now))
+        yield from ("%s has no row of call %s in the ledger" % (name, call) for call in sorted(now - before))
+
+
+def keep(path, measured):
+    """Rows of commands that were not measured stay."""
+    rows = known_rows(path)
     rows.update(measured)
     with path.open("w", newline="") as out:
         csv.writer(out, lineterminator="\n").writerows([COLUMNS, *(row for name in Scenarios.NAMES for row in rows.get(name, []))])
@@ -280,7 +294,8 @@ def main():
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--library", required=True, type=pathlib.Path, help="fail_call.so")
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [faults.csv]")
-    parser.add_argument("--quick", action="store_true", help="a few commands and calls; writes nothing; fails when there is a defect")
+    parser.add_argument("--quick", action="store_true", help="a few commands and calls; writes nothing; fails when there is a defect, or "
+                        "where a command makes other kinds of calls than the ledger has")
     parser.add_argument("--only", action="append", help="this command alone; repeat")
     parser.add_argument("--call", action="append", choices=FAULTS, help="this call alone; repeat")
     parser.add_argument("--most", type=int, metavar="N", help="so many calls at the beginning, between and at the end [all]")
@@ -305,8 +320,11 @@ def main():
                 keep(arguments.results, measured)
     rows = [row for rows in measured.values() for row in rows]
     defects = sum(row[-1] for row in rows)
-    print("%d runs, %d with a defect" % (sum(row[4] for row in rows), defects))
-    return 1 if defects else 0
+    runs = sum(row[4] for row in rows)
+    print("%d runs, %d with a defect" % (runs, defects))
+    changed = list(changed_kinds(measured, known_rows(RESULTS))) if arguments.quick and not arguments.call else []
+    print("".join(line + "; measure it anew\n" for line in changed), end="")
+    return 1 if defects or changed or not runs else 0
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from faults import Server, some_of
+from faults import Server, changed_kinds, measure, some_of
 from scenarios import Scenario
 
 EXPECTED = [("write", 1, 28, "neither the old nor the new"), ("write", 2, 28, "exit status 0 without out"),
@@ -37,6 +37,11 @@ def main():
         for call, at, fault, expected in EXPECTED:
             became, defects = server.judge(call, at, fault)
             assert any(expected in defect for defect in defects), (call, at, fault, became, defects)
+        rows = list(measure(server, None, ["write"], False))
+        kinds = list(changed_kinds({"careless": rows}, {"careless": [["careless", "sync"]]}))
+        assert kinds == ["careless makes no call sync any more, or it is not seen", "careless has no row of call write in the ledger"], kinds
+        server.counts["write"] = 0
+        assert not list(measure(server, None, ["write"], False)), "what is not called has no row"
         server.close()
 
 
