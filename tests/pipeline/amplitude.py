@@ -7,6 +7,7 @@ A ToF module that drops nothing measures the query; the map is made of what one 
 """
 import concurrent.futures
 import csv
+import itertools
 import os
 import statistics
 import sys
@@ -18,13 +19,18 @@ from recordings import HERE, run
 
 RESULTS = HERE / "amplitude.csv"
 ROOMS = list(range(5001, 5013))  # seeds of room and walk; rig.py and the flat of nasty.py have them too
-FAINT = 75  # SPHC_SIMULATED_FAINT
+MASKS = 0, 75  # the least amplitude: any, and SPHC_SIMULATED_FAINT
 LAP_S, FRAMES = 16, 30
 ETA = 0.33
 # What the world is made of, and of every how many frames of lap one there is a map.
 WORLDS = {"room": ([], 1), "room, thin map": ([], 5), "hall, thin map": (["--with", "tiles,bare,doubles,mirror,window"], 5)}
 COLUMNS = ["world", "amplitude_min", "rooms", "frames", "localized", "right", "wrong", "median_mm", "worst_median_mm", "p90_mm",
            "worst_p90_mm", "worst_mm"]
+
+
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    return itertools.product(WORLDS, MASKS)
 
 
 def simulate(tool, out, seed, *arguments):
@@ -48,7 +54,7 @@ def answers(tool, folder, seed):
         walk = simulate(tool, folder / (name + "_map"), seed, *arguments)
         query = simulate(tool, folder / (name + "_query.mcap"), seed, "--from", LAP_S, "--raw-depth", *arguments)
         map_file = build(tool, walk, step, seed, folder / ("%d_%d.sphc" % (seed, number)))
-        for least in (0, FAINT):
+        for least in MASKS:
             yield (world, least), run([tool, "localize", "--recording", query, "--map", map_file, "--owner-note",
                                        str(map_file) + ".owner.json", "--mode", "single", "--amplitude-min", least, "--json"])
 

@@ -23,6 +23,7 @@ from recordings import HERE, Ledger, run
 RESULTS = HERE / "calibration_fit.csv"
 REAL = ["redkitchen", "hololens", "hololens2"]  # walks of mapping.py
 FOCAL, CENTER_PX, TURN_DEG, SHIFT_M = 0.015, 4, 0.7, 0.008  # what a calibration is off: either way, each axis
+STATES = ["given", "refined"]
 COLUMNS = ["given", "recording", "calibration", "focal_percent", "center_px", "turn_deg", "shift_mm", "ate_rigid_m"]
 
 
@@ -73,7 +74,7 @@ def rows_of(given, name, tool, source, calibration, truth, folder):
     """Mapped with a calibration, and with what was made of it."""
     model, refined = folder / ("%s_%s.model" % (given, name)), folder / ("%s_%s.json" % (given, name))
     rows = []
-    for state, more in (("given", []), ("refined", ["--refine-calibration", refined])):
+    for state, more in zip(STATES, ([], ["--refine-calibration", refined])):
         score = run([tool, "map", *source, "--calibration", calibration, "--model", model, "--force", "--score", "--json", *more])["score"]
         used = read(refined if more else calibration)
         rows.append([given, name, state, *off(used, truth), "%.4f" % score["rigid_rmse_m"]])
@@ -95,6 +96,12 @@ def measure_real(name, tool, folder):
     option, path, _, calibration, *selection = real_walk(name, tool, folder)
     truth = read(calibration)
     return rows_of("sound", name, tool, [option, path, *selection], calibration, truth, folder)
+
+
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    rooms = ["room%d" % seed for seed in ROOMS]
+    return [(given, name, state) for given, names in (("spoiled", rooms), ("sound", REAL + rooms)) for name in names for state in STATES]
 
 
 def ledger_of(path):

@@ -60,6 +60,11 @@ class Room(SimulatedRoom):
                     yield Frame(self.seed, device, query, mode, name != "elsewhere", answer)
 
 
+def wanted_rows():
+    """What the rows are of, as KEY says."""
+    return itertools.product(DEVICES, DEVICES, ("single", "tracking"))
+
+
 def tell(frame):
     print("WRONG room %d, map of %s, %s, %s, %s" % (
         frame.seed, frame.map, "query of " + frame.query if frame.here else "elsewhere, by " + frame.query, frame.mode,
@@ -73,8 +78,7 @@ def main():
         found[frame.map, frame.query, frame.mode].append(frame)
         if is_wrong(frame):
             tell(frame)
-    order = list(itertools.product(DEVICES, DEVICES, ("single", "tracking")))
-    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(found[key])} for key in order])
+    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(found[key])} for key in wanted_rows()])
 
 
 if __name__ == "__main__":

@@ -29,6 +29,11 @@ RUNS = {
 }
 
 
+def wanted_rows():
+    """What the rows are of: recording, points and variant."""
+    return [(name, points, variant) for name, run in RUNS.items() for points in run["points"] for variant in run.get("ours", OURS) + run["peers"]]
+
+
 def call(tool, *arguments):
     command = [str(part) for part in (tool,) + arguments]
     print("+", *command, flush=True)

@@ -51,6 +51,11 @@ def measure_room(seed, tool, folder):
     return row_of("simulated", walk.name, tool, ["--recording", walk])
 
 
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    return [*(("real", name) for name in REAL), *(("simulated", "room%d" % seed) for seed in ROOMS)]
+
+
 def ledger_of(path):
     return Ledger(path, COLUMNS, 2)
 

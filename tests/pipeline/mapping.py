@@ -70,6 +70,12 @@ def measure_room(seed, kinds, tool, folder):
     return [row_of("simulated", walk.name, kind, tool, ["--recording", walk], folder) for kind in kinds]
 
 
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    walks = [*(("real", name) for name in REAL), *(("simulated", "room%d" % seed) for seed in ROOMS)]
+    return [(*walk, kind) for kind in KINDS for walk in walks]
+
+
 def ledger_of(path):
     return Ledger(path, COLUMNS, 3, lambda row: (row[0], KINDS.index(row[2])))
 

@@ -18,8 +18,13 @@ sys.dont_write_bytecode = True
 from recordings import HERE, run
 
 RESULTS = HERE / "mapping_flats.csv"
-FIRST_SEED, RATE_HZ, FRAMES = 8001, 4, 660  # rolling.py has the same seeds, of rooms
+SEEDS, RATE_HZ, FRAMES = range(8001, 8013), 4, 660  # rolling.py has the same seeds, of rooms
 COLUMNS = ["flat", "frames", "frames_mapped", "parts", "loops", "ate_rigid_m", "worst_m", "revisit_worst_m", "ate_similarity_m", "scale"]
+
+
+def wanted_rows():
+    """What the rows are of: the first column of each."""
+    return [(seed,) for seed in SEEDS]
 
 
 def row_of(seed, tool):
@@ -39,10 +44,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [mapping_flats.csv]")
-    parser.add_argument("--seeds", type=int, default=12, metavar="N", help="how many flats [12]")
+    parser.add_argument("--seeds", type=int, default=len(SEEDS), choices=range(1, len(SEEDS) + 1), metavar="N", help="how many flats [12]")
     arguments = parser.parse_args()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        rows = list(pool.map(lambda seed: row_of(seed, arguments.spherecloud), range(FIRST_SEED, FIRST_SEED + arguments.seeds)))
+        rows = list(pool.map(lambda seed: row_of(seed, arguments.spherecloud), SEEDS[:arguments.seeds]))
     with arguments.results.open("w", newline="") as out:
         csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
 

@@ -30,6 +30,11 @@ COLUMNS = ["world", "frames", "walk_s", "keyframes", "frames_mapped", "parts", "
            "times_faster_than_walk", "most_memory_mib"]
 
 
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    return [(world, frames) for world, (_, lengths) in WORLDS.items() for frames in lengths]
+
+
 def measured(command):
     """What a command prints, and its seconds, processor seconds and most memory in KiB."""
     start = time.monotonic()

@@ -92,6 +92,11 @@ def measure_room(name, keys, tool, folder):
 WALKS = {**dict.fromkeys(REAL, measure_real), **{"room%d" % seed: measure_room for seed in ROOMS}}
 
 
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    return [(name, truth, poses) for name in WALKS for truth in (POSES if name in REAL else ["given"]) for poses in POSES]
+
+
 def line_of(row):
     return ("%-12s beside %-6s poses, map of %-6s, %3s keys: %4s frames, %4s localized, %4s within 5 cm and 5 deg (worst key %s), median %s cm, "
             "p90 %s cm, median %s deg, p90 %s deg" % tuple(row))

@@ -21,7 +21,7 @@ from recordings import HERE, Ledger, Recording, require, run
 RESULTS = HERE / "mapping_peers.csv"
 COLUMNS = ["recording", "mapper", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_similarity_m", "scale", "processor_s"]
 FRAMES = {"redkitchen": 200, "hololens": 200, "hololens2": 173}  # the first ones: those of mapping.py
-PEERS = ["colmap global", "colmap global exhaustive", "open3d"]
+MAPPERS = ["spherecloud", "colmap global", "colmap global exhaustive", "open3d"]
 
 
 class Walk:
@@ -242,6 +242,11 @@ def measure(mapper, folder, tool):
                       "%.0f" % spent_s]))
 
 
+def wanted_rows():
+    """What the rows are of: the first columns of each."""
+    return [(name, mapper) for name in FRAMES for mapper in MAPPERS]
+
+
 def ledger_of(path):
     return Ledger(path, COLUMNS, 2, lambda row: list(FRAMES).index(row[0]))
 
@@ -260,7 +265,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for name in arguments.only:
             walk = prepare(name, arguments.spherecloud, pathlib.Path(scratch))
-            for mapper in ["spherecloud", *PEERS]:
+            for mapper in MAPPERS:
                 done = subprocess.run([sys.executable, __file__, "--spherecloud", arguments.spherecloud, "--measure", mapper, str(walk)],
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 if done.returncode:

@@ -30,6 +30,11 @@ COLUMNS = ["maps", "frames", "localized_percent", "within_5cm_5deg_percent", "ri
            "match_ms_median", "frame_ms_median"]
 
 
+def wanted_rows():
+    """What the rows are of: the first column of each."""
+    return [(1,), (ROOMS,)]
+
+
 class Room:
     """A map, and frames of the same place later."""
 

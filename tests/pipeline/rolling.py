@@ -71,6 +71,11 @@ class Room(SimulatedRoom):
                         yield Frame(self.seed, device, of_map, of_query, mode, here, answer)
 
 
+def wanted_rows():
+    """What the rows are of, as KEY says."""
+    return sorted((device, *shutters, mode) for device, shutters, mode in itertools.product(ROW_TIME_NS, SHUTTERS, MODES))
+
+
 def tell(frame):
     print("WRONG room %d, %s, map %s, query %s, %s, %s, %s" % (
         frame.seed, frame.device, frame.map, frame.query, frame.mode, "here" if frame.here else "elsewhere", words_of(frame.answer)),
@@ -84,7 +89,7 @@ def main():
         found[frame[1:5]].append(frame)
         if is_wrong(frame):
             tell(frame)
-    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(frames)} for key, frames in sorted(found.items())])
+    write_rows(arguments.results, COLUMNS, [{**dict(zip(KEY, key)), **figures_of(frames)} for key, frames in ((key, found[key]) for key in wanted_rows())])
 
 
 if __name__ == "__main__":
