@@ -9,7 +9,8 @@ import spherecloud as sphc
 from spherecloud import _answers, _interface, _library
 
 JSON = pathlib.Path(__file__).parents[3] / "sdk" / "include" / "spherecloud" / "spherecloud.json"
-MACHINES = {"x86_64": "x86_64-linux-gnu", "aarch64": "aarch64-linux-gnu", "riscv64": "riscv64-linux-gnu"}
+MACHINES = {"x86_64": "x86_64-linux-gnu", "aarch64": "aarch64-linux-gnu", "riscv64": "riscv64-linux-gnu",
+            "i686": "i686-linux-gnu", "armv7l": "armv7-linux-gnueabihf"}
 NAMED = {sphc.Status: "status", sphc.Format: "format", sphc.CameraModel: "camera_model", sphc.Band: "band",
          sphc.Convention: "convention", sphc.AlignedPixel: "aligned_pixel", sphc.LogLevel: "log_level",
          sphc.Mode: "localizer_mode", sphc.State: "localizer_state", sphc.Outcome: "localizer_outcome",
@@ -25,6 +26,7 @@ class Layouts(unittest.TestCase):
 
     def test_structs(self):
         self.assertEqual(len(self.structs), 25)
+        self.assertEqual(set(MACHINES.values()), set(self.structs[0]["layouts"]), "each machine of the interface is known here")
         for struct in self.structs:
             bound, layout = getattr(_interface, struct["name"]), struct["layouts"][self.machine]
             self.assertEqual(ctypes.sizeof(bound), layout["bytes"], struct["name"])
