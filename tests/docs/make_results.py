@@ -160,7 +160,8 @@ def localization(pipeline):
         ("Whole frames", "pipeline/frame.csv", "frame_results",
          "The localizer beside pipelines of packages on an open point map of the same place, at eta 33 %, in one interleaved\n"
          "run. `times faster than peer`: the time of `opencv sift, faiss ivf 16` over this one's. The group *scaling* has\n"
-         "maps of redkitchen of growing size. Method: [bench.md](bench.md#whole-frames).",
+         "maps of redkitchen of growing size. Measured on 2026-11-29, bytes too; the current ones are in [Memory](#memory).\n"
+         "Method: [bench.md](bench.md#whole-frames).",
          flat(rows("frame.csv"), ["recording"])),
         ("Features", "pipeline/features.csv", "features_results",
          "Keypoints and matches of pairs of frames 8 and 20 apart; *verified* ones agree with the recorded poses.\n"
@@ -282,7 +283,8 @@ def others(pipeline):
          flat(rows("deadline.csv"), ["recording", "case"])),
         ("Worst cases", "pipeline/worst.csv", "worst_results",
          "Frames and maps made to cost the most, beside the frames and the map that they were made of, each by itself. `times normal`: processor\n"
-         "time over the median of a normal frame; `times deadline`: over a deadline of twice that. Method: [testing.md](testing.md#worst-cases).",
+         "time over the median of a normal frame; `times deadline`: over a deadline of twice that. Measured on 2026-11-24, bytes too; the current ones are in\n"
+         "[Memory](#memory). Method: [testing.md](testing.md#worst-cases).",
          flat(rows("worst.csv"), ["recording"])),
         ("Several cores", "pipeline/parallel.csv", "parallel_results",
          "Cold frames on a map of 50 000 points, by one thread and by several in turn: the median wall time of one over that of\n"
