@@ -9,7 +9,6 @@ clang maps the lines of one instruction set, so the build has but one.
 """
 import argparse
 import collections
-import csv
 import json
 import os
 import pathlib
@@ -19,6 +18,9 @@ import sys
 import typing
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(1, str(ROOT / "tests" / "pipeline"))
+from recordings import write_csv
 
 
 class Measured(typing.NamedTuple):
@@ -103,8 +105,7 @@ def main():
     parser.add_argument("--missed", action="store_true")
     arguments = parser.parse_args()
     rows = [row for name in SETS for row in measure(name, arguments.build.resolve(), arguments.missed)]
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    write_csv(arguments.results, [COLUMNS, *rows])
     totals = [dict(zip(COLUMNS, row)) for row in rows if row[1] == "all"]
     low = [(total, name, floor) for total in totals for name, floor in SETS[total["set"]].floors.items()
            if float(total[name + "_percent"]) < floor]

@@ -26,11 +26,14 @@ import sys
 import tempfile
 import zlib
 
+HERE = pathlib.Path(__file__).resolve().parent
+PIPELINE = HERE.parent / "pipeline"
 sys.dont_write_bytecode = True
+sys.path.insert(1, str(PIPELINE))
+from recordings import write_csv
 from scenarios import Scenarios
 
-HERE = pathlib.Path(__file__).resolve().parent
-RESULTS = HERE.parent / "pipeline" / "faults.csv"
+RESULTS = PIPELINE / "faults.csv"
 FAULTS = {  # what each call is made to do; a + is a fault that stays
     "malloc": [errno.ENOMEM, "%d+" % errno.ENOMEM],
     "open": [errno.EMFILE, errno.EIO],
@@ -285,8 +288,7 @@ def keep(path, measured):
     """Rows of commands that were not measured stay."""
     rows = known_rows(path)
     rows.update(measured)
-    with path.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *(row for name in Scenarios.NAMES for row in rows.get(name, []))])
+    write_csv(path, [COLUMNS, *(row for name in Scenarios.NAMES for row in rows.get(name, []))])
 
 
 def main():

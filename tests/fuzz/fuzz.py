@@ -17,7 +17,12 @@ import sys
 import tempfile
 import time
 
-RESULTS = pathlib.Path(__file__).resolve().parent.parent / "pipeline" / "fuzz.csv"
+PIPELINE = pathlib.Path(__file__).resolve().parent.parent / "pipeline"
+sys.dont_write_bytecode = True
+sys.path.insert(1, str(PIPELINE))
+from recordings import write_rows
+
+RESULTS = PIPELINE / "fuzz.csv"
 COLUMNS = ["sanitizers", "target", "executions", "seconds", "edges", "inputs", "findings"]
 DOORS = ["map", "session"]
 KEPT = pathlib.Path(__file__).resolve().parent / "corpora"
@@ -115,10 +120,7 @@ def main():
         key = (measured[-1]["sanitizers"], target)
         rows[key] = added(rows[key], measured[-1]) if arguments.more and key in rows else measured[-1]
         print(" ".join(f"{name} {measured[-1][name]}" for name in COLUMNS), flush=True)
-        with RESULTS.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows[key] for key in sorted(rows))
+        write_rows(RESULTS, COLUMNS, (rows[key] for key in sorted(rows)))
     return 1 if any(row["findings"] for row in measured) else 0
 
 

@@ -6,21 +6,15 @@
 import argparse
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+from recordings import ran
 
 FRAMES, FOLDS = 16, 2
 LEAST_POINTS = 300
 LEAST_RECALL = 0.9  # of all points: half the walk is mapped, the other half localized
-
-
-def run(command, accepted=0):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode != accepted:
-        sys.exit("ended with %d: %s\n%s%s" % (result.returncode, " ".join(map(str, command)), result.stdout,
-                                              result.stderr))
-    return result
 
 
 def faults(advice):
@@ -49,12 +43,12 @@ def main():
     tool = parser.parse_args().spherecloud
     with tempfile.TemporaryDirectory() as folder:
         walk, picture = pathlib.Path(folder) / "walk", pathlib.Path(folder) / "advice.png"
-        run([tool, "simulate", "--out", walk, "--frames", FRAMES, "--rate", 6])
+        ran([tool, "simulate", "--out", walk, "--frames", FRAMES, "--rate", 6])
         advise = [tool, "advise", "--recording", walk, "--folds", FOLDS, "--json"]
-        found = list(faults(json.loads(run([*advise, "--picture", picture]).stdout)))
+        found = list(faults(json.loads(ran([*advise, "--picture", picture]).stdout)))
         if not picture.exists():
             found.append("no picture")
-        few = run([tool, "advise", "--recording", walk, "--folds", FRAMES], accepted=1)
+        few = ran([tool, "advise", "--recording", walk, "--folds", FRAMES], accepted=(1,))
         if "too few" not in few.stderr:
             found.append("too few frames are refused by: " + few.stderr)
     sys.exit("\n".join(found) if found else 0)

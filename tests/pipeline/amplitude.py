@@ -6,7 +6,6 @@
 A ToF module that drops nothing measures the query; the map is made of what one measures that drops what it does not believe.
 """
 import concurrent.futures
-import csv
 import itertools
 import os
 import statistics
@@ -15,7 +14,7 @@ import sys
 sys.dont_write_bytecode = True
 import room_options
 from private_key import key_of
-from recordings import HERE, run
+from recordings import HERE, run, write_csv
 
 RESULTS = HERE / "amplitude.csv"
 ROOMS = list(range(5001, 5013))  # seeds of room and walk; rig.py and the flat of nasty.py have them too
@@ -89,8 +88,7 @@ def main():
     arguments = parser.parse_args()
     with room_options.folder_of(arguments.keep) as folder:
         rows = measure(arguments.spherecloud, folder, arguments.rooms)
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    write_csv(arguments.results, [COLUMNS, *rows])
 
 
 if __name__ == "__main__":

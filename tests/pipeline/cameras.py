@@ -15,8 +15,8 @@ import sys
 sys.dont_write_bytecode = True
 import room_options
 from nasty import is_wrong
-from recordings import HERE
-from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of, write_rows
+from recordings import HERE, write_rows
+from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of
 
 RESULTS = HERE / "cameras.csv"
 DEVICES = "headset", "phone", "wide", "glasses"

@@ -14,13 +14,12 @@ import os
 import pathlib
 import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
 
 from private_key import private_key
+from recordings import SKIPPED, ran
 
-SKIPPED = 77
 FRAMES = 24  # at 4 Hz; even ones are mapped, odd ones localized
 # Floors and ceilings.  COLMAP is another at each run: on so few images its camera path is bent by up to a centimetre, and
 # distances between frames with it.
@@ -29,10 +28,7 @@ LEAST_POINTS, LEAST_SHARE, MOST_CM, MOST_SCALE = 400, 0.7, 6.0, 0.07
 
 def run(command, cwd):
     environment = dict(os.environ, QT_QPA_PLATFORM="offscreen")
-    result = subprocess.run([str(part) for part in command], cwd=cwd, env=environment, capture_output=True, text=True)
-    if result.returncode not in (0, 3):
-        sys.exit("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout[-2000:], result.stderr[-2000:]))
-    return result.stdout
+    return ran(command, accepted=(0, 3), cwd=cwd, env=environment).stdout
 
 
 def reconstruct(tool, recording, folder):

@@ -10,7 +10,6 @@ colour.  Odometry is the truth, with a small sigma.  Needs numpy.
 """
 import collections
 import concurrent.futures
-import csv
 import json
 import multiprocessing
 import os
@@ -22,7 +21,7 @@ import sys
 sys.dont_write_bytecode = True
 import room_options
 from private_key import key_of
-from recordings import HERE, ROOT, run
+from recordings import HERE, ROOT, run, write_csv
 
 sys.path.insert(0, str(ROOT / "bindings" / "python"))
 import spherecloud
@@ -157,9 +156,7 @@ def main():
             jobs = [pool.submit(measure, arguments.spherecloud, arguments.library, folder, seed)
                     for seed in ROOMS[:arguments.rooms]]
             rooms = [job.result() for job in jobs]
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows(
-            [COLUMNS] + [[*key, *row_of([room[key] for room in rooms])] for key in rooms[0]])
+    write_csv(arguments.results, [COLUMNS] + [[*key, *row_of([room[key] for room in rooms])] for key in rooms[0]])
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ import maps
 import nasty
 import rolling
 import worst
-from recordings import HERE, Ledger
+from recordings import HERE, Ledger, ran, run, write_rows
 
 COLUMNS = ["recording", "case", "value"]
 # Scripts that state their rows, and the columns that say what a row is of; accuracy.py has a test of its own.
@@ -113,6 +113,18 @@ class Ledgers(unittest.TestCase):
         with self.assertRaises(SystemExit):
             Ledger(self.path, COLUMNS, 2)
         self.assertEqual(["recording,value", "a,1"], self.lines())
+
+    def test_a_ledger_is_written_whole_or_not_at_all(self):
+        write_rows(self.path, COLUMNS, [{"value": 1, "recording": "a", "case": "x", "other": 2}])
+        with self.assertRaises(KeyError):
+            write_rows(self.path, COLUMNS, iter([{"recording": "b", "case": "x", "value": 2}, {"recording": "b"}]))
+        self.assertEqual(["recording,case,value", "a,x,1"], self.lines())
+
+    def test_a_command_ends_the_script_unless_its_status_is_accepted(self):
+        ends = [sys.executable, "-c", "print('[4]'); raise SystemExit(3)"]
+        self.assertEqual(("[4]\n", [4]), (ran(ends, accepted=(0, 3)).stdout, run(ends)))
+        with self.assertRaisesRegex(SystemExit, "ended with 3: .*\n\\[4\\]"):
+            ran(ends)
 
     def test_committed_ledgers_are_as_their_scripts_leave_them(self):
         for script in (calibration_fit, deadline, guide, hints, mapping, mapping_localized, mapping_peers, worst):

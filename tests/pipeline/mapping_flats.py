@@ -8,14 +8,13 @@ flats can be measured; mapping_growth.py has one at 30 Hz.
 """
 import argparse
 import concurrent.futures
-import csv
 import os
 import pathlib
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from recordings import HERE, run
+from recordings import HERE, run, write_csv
 
 RESULTS = HERE / "mapping_flats.csv"
 SEEDS, RATE_HZ, FRAMES = range(8001, 8013), 4, 660  # rolling.py has the same seeds, of rooms
@@ -48,8 +47,7 @@ def main():
     arguments = parser.parse_args()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         rows = list(pool.map(lambda seed: row_of(seed, arguments.spherecloud), SEEDS[:arguments.seeds]))
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    write_csv(arguments.results, [COLUMNS, *rows])
 
 
 if __name__ == "__main__":

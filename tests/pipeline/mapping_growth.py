@@ -19,7 +19,7 @@ import time
 
 sys.dont_write_bytecode = True
 from mapping import ROOMS
-from recordings import HERE, run
+from recordings import HERE, run, write_csv
 
 RESULTS = HERE / "mapping_growth.csv"
 # Options of `simulate`, and how many frames.
@@ -112,8 +112,7 @@ def measure(arguments):
                 rows.append(row_of(world, frames, arguments.spherecloud, arguments.walks or pathlib.Path(scratch)))
     order = list(WORLDS)
     rows.sort(key=lambda row: order.index(row[0]))
-    with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    write_csv(arguments.results, [COLUMNS, *rows])
 
 
 if __name__ == "__main__":

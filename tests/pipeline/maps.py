@@ -9,7 +9,6 @@ room alone and in all maps together.  A frame of a room that has a double is rig
 """
 import argparse
 import concurrent.futures
-import csv
 import json
 import os
 import pathlib
@@ -20,7 +19,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from accuracy import WORST_CM, WORST_DEG
 from private_key import key_of
-from recordings import HERE, run
+from recordings import HERE, run, write_rows
 
 RESULTS = HERE / "maps.csv"
 ROOMS, OF_DOUBLES, FIRST_SEED = 64, 4, 4001  # maps in all; a double for each so many rooms; hints.py and nasty.py have seeds of these too
@@ -106,10 +105,7 @@ def main():
         folder = arguments.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         rows = list(measure(arguments.spherecloud, folder, arguments.rooms))
-    with arguments.results.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(arguments.results, COLUMNS, rows)
 
 
 if __name__ == "__main__":

@@ -8,9 +8,11 @@ import json
 import math
 import pathlib
 import struct
-import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+from recordings import ran
 
 WALK = ["--frames", 20, "--rate", 1.25, "--seed", 3001, "--walk-seed", 3001]  # one lap
 HEADER, POINT = 32, 164  # bytes of a saved model and of a point in it, docs/private_model.md
@@ -19,13 +21,6 @@ NEAR_M, FLOOR_M, HIP_M = 0.4, 0.05, 0.9
 FEWEST_ON_LEGS = 100     # with the option off; else the test shows nothing
 MOST_LEFT = 0.1          # of them
 MOST_OF_ROOM = 0.01      # of the points of a room in which nothing moves
-
-
-def run(command):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode:
-        sys.exit("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
-    return result.stdout
 
 
 def holder_places(walk):
@@ -42,14 +37,14 @@ def points_on_legs(model, places):
 def mapped(tool, walk, name, *more):
     """The saved model, and what the command says about it."""
     model = walk.parent / (name + ".model")
-    told = run([tool, "build", "--recording", walk, "--map", walk.parent / (name + ".sphc"), "--ledger",
+    told = ran([tool, "build", "--recording", walk, "--map", walk.parent / (name + ".sphc"), "--ledger",
                 walk.parent / (name + ".ledger"), "--save-model", model, "--json", *more])
-    return model, json.loads(told)
+    return model, json.loads(told.stdout)
 
 
 def faults(tool, folder):
     walk, still = folder / "walk", folder / "still"
-    run([tool, "simulate", "--out", walk, "--with", "hands,feet", *WALK])
+    ran([tool, "simulate", "--out", walk, "--with", "hands,feet", *WALK])
     places = holder_places(walk)
     (all_points, whole), (points, kept) = mapped(tool, walk, "all", "--keep-moving"), mapped(tool, walk, "kept")
     before, after = points_on_legs(all_points, places), points_on_legs(points, places)
@@ -64,7 +59,7 @@ def faults(tool, folder):
     if not whole["points_kept"] - 1.2 * dropped < kept["points_kept"] < whole["points_kept"] - 0.8 * dropped:
         yield "the numbers that the command tells do not fit together"
 
-    run([tool, "simulate", "--out", still, *WALK])
+    ran([tool, "simulate", "--out", still, *WALK])
     _, room = mapped(tool, still, "room")
     dropped = room["points_seen_through"] + room["points_within_reach"]
     print("nothing moves: %d of %d points dropped" % (dropped, room["points_kept"]))

@@ -17,7 +17,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from accuracy import REFUSED, Place
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, frames, run
+from recordings import HERE, frames, run, write_csv
 
 RESULTS = HERE / "negative.csv"
 NAMES = ["simulated", "redkitchen", "hololens"]
@@ -98,8 +98,7 @@ def main():
     for key, row in measure(arguments).items():
         rows[key] = [*key, row["keys"], *(row[name] for name in COUNTS), "%.3f" % row["worst_m"], "%.2f" % row["worst_deg"],
                      " ".join(sorted(row["seen"]))]
-    with RESULTS.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows.values()])
+    write_csv(RESULTS, [COLUMNS, *rows.values()])
 
 
 if __name__ == "__main__":

@@ -5,11 +5,10 @@
 """
 import argparse
 import pathlib
-import subprocess
-import sys
 import tempfile
 
 from private_key import private_key
+from recordings import ran
 
 
 def main():
@@ -26,9 +25,7 @@ def main():
             [tools.poses, recording, map_file],
         ]
         for command in commands:
-            result = subprocess.run([str(part) for part in command], text=True, capture_output=True)
-            if result.returncode != 0:
-                sys.exit("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
+            result = ran(command)
         print(result.stdout, end="")
 
 

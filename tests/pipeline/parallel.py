@@ -5,14 +5,13 @@ spherecloud-lab parallel on their queries.
     parallel.py --lab BIN [--repeat N] [--threads N...]      rewrites parallel.csv, for review
 """
 import argparse
-import csv
 import pathlib
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
 from frame import RUNS, maps
-from recordings import HERE, Recording, frames, run
+from recordings import HERE, Recording, frames, run, write_csv
 
 RESULTS = HERE / "parallel.csv"
 NAMES = ["redkitchen", "hololens"]
@@ -40,10 +39,7 @@ def main():
             row |= {"recording": name} | {ratio: "%.2f" % row[ratio] for ratio in RATIOS}
             table.append([row[column] for column in COLUMNS])
             print(*table[-1], flush=True)
-    with RESULTS.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows(table)
+    write_csv(RESULTS, [COLUMNS, *table])
 
 
 if __name__ == "__main__":

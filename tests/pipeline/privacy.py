@@ -11,17 +11,15 @@ all places together, and are made anew of the table for every strategy whose pic
 import argparse
 import collections
 import csv
-import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 from statistics import mean
 
 from private_key import private_key
+from recordings import HERE, ran, write_rows
 
-HERE = pathlib.Path(__file__).resolve().parent
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
 RESULTS = HERE / "privacy.csv"
 ROOMS = range(901, 907)
@@ -29,16 +27,9 @@ STRATEGIES = ("gaussian", "patchwork", "warped")
 KEYS = 2
 
 
-def run(command, accepted=(0,)):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode not in accepted:
-        sys.exit("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
-    return json.loads(result.stdout)
-
-
 def room(tool, path, seed, walk_seed, *options):
     if not path.exists():
-        run([tool, "simulate", "--out", path, "--seed", seed, "--walk-seed", walk_seed, *options, "--json"])
+        ran([tool, "simulate", "--out", path, "--seed", seed, "--walk-seed", walk_seed, *options, "--json"])
     return path
 
 
@@ -74,9 +65,9 @@ def audited(options, folder, name, recording, strategy):
         digits.write_text("%064x\n" % key)
         digits.chmod(0o600)
         ledger, figures = folder / "map.ledger", folder / "map.csv"
-        run([tool, "build", "--model", model, "--map", folder / "map.sphc", "--ledger", ledger, "--key", digits,
+        ran([tool, "build", "--model", model, "--map", folder / "map.sphc", "--ledger", ledger, "--key", digits,
              "--fakes", strategy, "--json"])
-        run([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
+        ran([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
                      name, "--json", *(word for attack in options.only for word in ("--only", attack))],
             accepted=(0, 4, 5))
         with figures.open(newline="") as rows:
@@ -108,10 +99,7 @@ def read_results():
 
 
 def write_results(rows):
-    with RESULTS.open("w", newline="") as results:
-        writer = csv.DictWriter(results, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(RESULTS, list(rows[0]), rows)
 
 
 def replace(fresh):
@@ -163,7 +151,7 @@ def main():
         folder = pathlib.Path(folder)
         for name, recording, photos in places(options.spherecloud, options.rooms or folder, options.places):
             without_map(folder)
-            run([options.spherecloud, "build", *recording, "--save-model", folder / "points.model", "--map",
+            ran([options.spherecloud, "build", *recording, "--save-model", folder / "points.model", "--map",
                  folder / "map.sphc", "--ledger", folder / "map.ledger", "--key", private_key(folder), "--force", "--json"])
             for strategy in options.strategies:
                 fresh = means(audited(options, folder, name, [*recording, *photos], strategy))

@@ -8,10 +8,12 @@ import argparse
 import csv
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 from statistics import mean
+
+sys.dont_write_bytecode = True
+from recordings import ran
 
 FRAMES, RATE, ROOM = 20, 2.5, 907
 KEYS = range(1, 4)
@@ -25,21 +27,13 @@ RETRIEVAL = 0.85
 ATTACKS = ("file", "file_cues", "density", "real_or_fake", "inversion", "triangulation", "intersection", "intersection_gain")
 
 
-def run(command, accepted=(0,)):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode not in accepted:
-        sys.exit("ended with %d: %s\n%s%s" % (result.returncode, " ".join(map(str, command)), result.stdout,
-                                              result.stderr))
-    return result
-
-
 class Gate:
     def __init__(self, tool, folder):
         self.tool, self.folder, self.walk = tool, folder, folder / "walk"
-        run([tool, "simulate", "--out", self.walk, "--frames", FRAMES, "--rate", RATE, "--seed", ROOM,
+        ran([tool, "simulate", "--out", self.walk, "--frames", FRAMES, "--rate", RATE, "--seed", ROOM,
              "--walk-seed", ROOM])
         for name, last in (("half", FRAMES // 2), ("whole", FRAMES)):
-            run([tool, "build", "--recording", self.walk, "--last", last, "--save-model", folder / (name + ".model"),
+            ran([tool, "build", "--recording", self.walk, "--last", last, "--save-model", folder / (name + ".model"),
                  "--map", folder / (name + ".sphc"), "--ledger", folder / (name + ".ledger")])
 
     def build(self, name, model, key, *options):
@@ -49,7 +43,7 @@ class Gate:
         digits.touch(mode=0o600)
         digits.write_text("%064x\n" % key)
         known = [] if files[1].exists() else ["--key", digits]
-        run([self.tool, "build", "--model", self.folder / (model + ".model"), "--map", files[0], "--ledger", files[1],
+        ran([self.tool, "build", "--model", self.folder / (model + ".model"), "--map", files[0], "--ledger", files[1],
              *known, *options])
         return files
 
@@ -57,7 +51,7 @@ class Gate:
         limits = ["--limit=%s=%g" % item for item in CEILINGS.items()]
         limits += ["--limit=inversion.%s=2" % figure for figure in ("of_papers", "of_papers_fine")]
         limits += ["--only=%s" % attack for attack in ATTACKS]
-        found = run([self.tool, "audit", files[0], "--truth", files[1], "--recording", self.walk, "--queries", 2,
+        found = ran([self.tool, "audit", files[0], "--truth", files[1], "--recording", self.walk, "--queries", 2,
                      "--release", release, "--quick", "--json", "--figures", self.folder / "figures.csv", *limits], accepted)
         told = json.loads(found.stdout)
         pictures = {row["points"]: row["retrieval_coarse"] for row in told["inversions"]}

@@ -31,11 +31,17 @@ RECORDINGS = {
 }
 
 
+def ran(command, accepted=(0,), **more):
+    """What became of a command.  Ends the script where its exit status is none of those."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, **more)
+    if result.returncode not in accepted:
+        sys.exit("ended with %d: %s\n%s%s" % (result.returncode, " ".join(map(str, command)), result.stdout, result.stderr))
+    return result
+
+
 def run(command):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode not in (0, 3, 6):  # 3: ran, but nothing was localized; 6: mapped, but parts never met
-        raise RuntimeError("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
-    return json.loads(result.stdout)
+    """What a command says in JSON."""
+    return json.loads(ran(command, accepted=(0, 3, 6)).stdout)  # 3: ran, but nothing was localized; 6: mapped, but parts never met
 
 
 def frames(selection):
@@ -77,6 +83,11 @@ def write_csv(path, rows):
     with part.open("w", newline="") as out:
         csv.writer(out, lineterminator="\n").writerows(rows)
     part.replace(path)
+
+
+def write_rows(path, columns, rows):
+    """Of each row, a dict, the values that are columns."""
+    write_csv(path, [columns, *([row[column] for column in columns] for row in rows)])
 
 
 class Ledger:

@@ -9,7 +9,6 @@ are localized each alone: as the walk looks, and with nothing but a wall ahead; 
 """
 import argparse
 import concurrent.futures
-import csv
 import os
 import pathlib
 import statistics
@@ -18,7 +17,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from private_key import key_of
-from recordings import HERE, run
+from recordings import HERE, run, write_rows
 
 RESULTS = HERE / "rig.csv"
 ROOMS = list(range(5001, 5013))  # seeds of room and walk, which amplitude.py and the flat of nasty.py have too; and of key
@@ -74,10 +73,7 @@ def main():
         folder = arguments.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         rows = list(measure(arguments.spherecloud, arguments.lab, folder, arguments.rooms))
-    with arguments.results.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(arguments.results, COLUMNS, rows)
 
 
 if __name__ == "__main__":

@@ -16,8 +16,8 @@ import sys
 sys.dont_write_bytecode = True
 import room_options
 from nasty import is_wrong
-from recordings import HERE
-from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of, write_rows
+from recordings import HERE, write_rows
+from simulated_room import SimulatedRoom, figures_of, frames_of_rooms, words_of
 
 RESULTS = HERE / "rolling.csv"
 ROOMS, FIRST_SEED, ELSEWHERE = 12, 8001, 50  # mapping_flats.py has the same seeds; from a room to the one that is elsewhere

@@ -1,7 +1,6 @@
 """A simulated room, through the command line alone: its recordings, its maps, and what is localized in them."""
 import collections
 import concurrent.futures
-import csv
 import json
 import os
 import statistics
@@ -88,14 +87,6 @@ def figures_of(frames):
     for part, unit in enumerate(("cm", "deg")):
         figures["median_" + unit], figures["p90_" + unit] = median_and_p90(errors(answer)[part] for answer in accepted)
     return figures
-
-
-def write_rows(path, columns, rows):
-    """Of the figures of each row those that are columns."""
-    with path.open("w", newline="") as out:
-        writer = csv.DictWriter(out, columns, lineterminator="\n", extrasaction="ignore")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def words_of(answer):
