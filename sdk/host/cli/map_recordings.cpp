@@ -16,6 +16,8 @@
 namespace sphc::host {
 namespace {
 
+constexpr size_t kMostImported = 1000;  // frames, where they are not all keyframes: more of them tell little
+
 // A bar for each of the mapper's steps.
 class Steps {
  public:
@@ -95,14 +97,6 @@ void checkRecordings(const MapOptions &options, const std::vector<MappedRecordin
   }
   checkObservations(options.import, frames);
   if (options.trust.use != PoseUse::kNone && !is_told) refuseTold(options, recordings);
-}
-
-// As checkObservations(); points are made of keyframes alone, and of those that have a place.
-void checkKeyframes(const MapOptions &options, size_t keyframes) {
-  if (options.import.min_observations > keyframes)
-    throw UsageError("--min-observations " + std::to_string(options.import.min_observations) +
-                     ": points are made of keyframes that found a place, and there are " +
-                     std::to_string(keyframes) + "; give a smaller number, or record more frames of each place");
 }
 
 // The frames that are mapped may be none of those that were told.
@@ -217,21 +211,40 @@ void score(MappedRecording *recording) {
   recording->unaligned_rmse_m = std::sqrt(squared_m2 / static_cast<double>(pairs.size()));
 }
 
-// The recordings' points, seen by the keyframes from the poses that were found.
-ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) {
-  std::vector<std::vector<bool>> is_keyframe;
-  std::vector<recording::PoseTrack> paths;
-  for (const MappedRecording &recording : outcome.recordings) {
-    is_keyframe.emplace_back(recording.poses.size());
-    paths.push_back(recording.path());
+// Of each recording the frames whose points make the map: keyframes with a pose, and as many of the frames beside
+// them as make up kMostImported, evenly.
+std::vector<std::vector<bool>> framesToImport(const MapOutcome &outcome) {
+  const FramePoses &mapped = outcome.mapped.world_from_camera;
+  std::vector<std::vector<bool>> takes_part;
+  for (const MappedRecording &recording : outcome.recordings) takes_part.emplace_back(recording.poses.size());
+  for (size_t i = 0; i < mapped.size(); ++i) {
+    const WalkFrame &frame = outcome.walk.keyframes[i];
+    takes_part[frame.recording][frame.index] = mapped[i].has_value();
   }
-  for (const WalkFrame &frame : outcome.walk.keyframes) is_keyframe[frame.recording][frame.index] = true;
+  std::vector<Follower> followers;
+  for (const Follower &follower : outcome.walk.followers)
+    if (mapped[follower.keyframe]) followers.push_back(follower);
+  const size_t keyframes = placedCount(mapped);
+  const size_t room = kMostImported > keyframes ? std::min(kMostImported - keyframes, followers.size()) : 0;
+  for (size_t i = 0; i < room; ++i) {
+    const Follower &follower = followers[i * followers.size() / room];
+    takes_part[follower.recording][follower.index] = true;
+  }
+  return takes_part;
+}
+
+// The recordings' points, seen from the poses that were found.
+ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) {
+  const std::vector<std::vector<bool>> takes_part = framesToImport(outcome);
+  std::vector<recording::PoseTrack> paths;
+  for (const MappedRecording &recording : outcome.recordings) paths.push_back(recording.path());
   std::vector<RgbdSource> sources;
   for (size_t r = 0; r < outcome.recordings.size(); ++r) {
     const MappedRecording &recording = outcome.recordings[r];
     sources.push_back(
-        {recording.reader.get(), [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
-         [&, r](int64_t time_ns) { return paths[r].at(time_ns, outcome.recordings[r].reader->poseGapNs()); }});
+        {recording.reader.get(), [&, r](uint32_t i) { return takes_part[r][i]; },
+         [&, r](int64_t time_ns) { return paths[r].at(time_ns, outcome.recordings[r].reader->poseGapNs()); },
+         outcome.mapped.depth});
   }
   ImportedPoints points = importRecordings(sources, options.import, describeSelection(options.of_each));
   points.model.band = options.band;
@@ -268,12 +281,12 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   checkRecordings(options, outcome.recordings);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome);
-  checkKeyframes(options, outcome.walk.keyframes.size());
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
   MappingOptions mapping = options.mapping();
   mapping.judges_told = options.judgesTold();
   outcome.mapped = mapOrSayWhy(&outcome, console, [&] { return mapWalk(outcome.walk, mapping, steps.progress()); });
-  checkKeyframes(options, placedCount(outcome.mapped.world_from_camera));
+  checkObservations(options.import, mappedFrames(outcome.walk, outcome.mapped.world_from_camera),
+                    " that found a place");
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   const std::vector<bool> &alone = outcome.mapped.by_told_alone;
   outcome.by_told_alone =

@@ -25,10 +25,11 @@ constexpr int64_t kFarApartNs = 10000000;  // between colour and depth: 5 mm of 
 // The device's own stages, in memory from the workstation's heap.
 class FrameDescriber {
  public:
-  FrameDescriber(const sphc_rig &calibration, const RgbdImportOptions &options)
+  FrameDescriber(const sphc_rig &calibration, const DepthCalibration &depth, const RgbdImportOptions &options)
       : camera_(calibration.color_camera),
         depth_camera_(calibration.depth_camera),
         color_from_depth_(rigidFromC(calibration.color_from_depth)),
+        depth_(depth),
         features_(camera_.width(), camera_.height(), options.max_keypoints) {
     aligner_.init({calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
                    kMappingNoise.sigma_per_m2});
@@ -50,9 +51,9 @@ class FrameDescriber {
       Vector2 pixel = features_.pixel(i);
       Vector3 point;
       double sigma = 0;
-      if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
+      if (!lift(depth, pixel, &point, &sigma)) continue;
       // Depth was measured at one time for all rows.
-      if (rows.roll() && !(rows.toMiddle(point, &pixel) && aligner_.lift(depth, pixel, &point, &sigma))) continue;
+      if (rows.roll() && !(rows.toMiddle(point, &pixel) && lift(depth, pixel, &point, &sigma))) continue;
       Observation o;
       o.position_m = world_from_camera * point;
       o.camera_m = world_from_camera.translation_m;
@@ -69,6 +70,12 @@ class FrameDescriber {
   }
 
  private:
+  bool lift(ImageView<uint16_t> depth, const Vector2 &pixel, Vector3 *point, double *sigma) const {
+    if (!aligner_.lift(depth, pixel, point, sigma)) return false;
+    *point *= 1 + depth_.correctionAt(point->z()) / point->z();
+    return true;
+  }
+
   // Exact across the view, uncertain along it.
   Matrix3 information(const Vector3 &point, double sigma, const Matrix3 &world_from_camera) const {
     const Vector3 view = world_from_camera * point.normalized();
@@ -80,6 +87,7 @@ class FrameDescriber {
 
   Camera camera_, depth_camera_;
   Rigid color_from_depth_;
+  DepthCalibration depth_;
   FrameFeatures features_;
   std::vector<uint8_t> gray_;
   SparseAligner aligner_;
@@ -149,7 +157,7 @@ class Importer {
  private:
   void add(const RgbdSource &source) {
     const sphc_rig &rig = source.reader->calibration();
-    FrameDescriber describer(rig, options_);
+    FrameDescriber describer(rig, source.depth, options_);
     RollingRows rows(describer.camera(), options_.row_time_ns);
     FrameConsistency consistency(rig, options_.depth_min_m, options_.depth_max_m);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);

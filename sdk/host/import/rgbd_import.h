@@ -10,6 +10,7 @@
 #include "host/frames/frame_consistency.h"
 #include "host/import/point_model.h"
 #include "host/recording/recording_reader.h"
+#include "runtime/types/depth_calibration.h"
 
 namespace sphc::host {
 
@@ -32,6 +33,7 @@ struct RgbdSource {
   std::function<bool(uint32_t index)> takes_part = {};  // of its frames; empty: all
   // world_from_camera of the colour camera at a time, none where it is not known; empty: the recording's own.
   std::function<std::optional<sphc_rigid>(int64_t time_ns)> poses = {};
+  DepthCalibration depth = {};  // its mean is what is known of the sensor's bias; points are lifted without it
 };
 
 // Points on what moved while the frames were taken.

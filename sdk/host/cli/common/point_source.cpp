@@ -235,10 +235,10 @@ void checkMappingOptions(const RgbdImportOptions &import) {
   checkDepthRange(import.depth_min_m, import.depth_max_m);
 }
 
-void checkObservations(const RgbdImportOptions &import, uint64_t frames) {
+void checkObservations(const RgbdImportOptions &import, uint64_t frames, const char *which) {
   if (import.min_observations > frames)
     throw UsageError("--min-observations " + std::to_string(import.min_observations) +
-                     ": no point can be seen in so many of " + counted(frames, "frame") +
+                     ": no point can be seen in so many of " + counted(frames, "frame") + which +
                      "; give a smaller number");
 }
 

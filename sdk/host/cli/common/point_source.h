@@ -39,7 +39,7 @@ void checkPointSource(const PointSource &source);
 // Of a source that passed the check.  Throws std::runtime_error with cause and cure, and where a signal came.
 ImportedPoints importPoints(const PointSource &source, const Interrupt &interrupt, const Console &console);
 // Throws UsageError where so many frames cannot agree on a point as are to.
-void checkObservations(const RgbdImportOptions &import, uint64_t frames);
+void checkObservations(const RgbdImportOptions &import, uint64_t frames, const char *which = "");
 // Of recordings that are open, the oldest first; `selection` says which of their frames (describeSelection()).
 // `interrupt`: ends it too; may be null.
 ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,

@@ -178,7 +178,7 @@ TEST_F(MapTest, AModelOfLessThanAThirdOfTheFramesIsNotWritten) {
   const Answer few =
       runCommand("map -r " + at("blind4") + " --min-observations 5 --force --model " + at("blind4.model"));
   EXPECT_EQ(few.exit_code, kExitUsage);
-  EXPECT_THAT(few.err, HasSubstr("keyframes that found a place, and there are 4; give a smaller number"));
+  EXPECT_THAT(few.err, HasSubstr("in so many of 4 frames that found a place; give a smaller number"));
   // A part that is chosen is all of the walk.
   EXPECT_EQ(runCommand("map -r " + at("blind3") + " --last 2 --model " + at("blind3.model")).exit_code, kExitDone);
 }

@@ -105,7 +105,8 @@ class LateDepthTest : public testing::Test {
   static constexpr uint32_t kFrames = 6;
   static constexpr double kFaster = 4;  // viewpoints a step
 
-  PointModel import(int64_t later_ns, bool is_told, int64_t poses_every_ns, RgbdImportSummary *summary) const {
+  PointModel import(int64_t later_ns, bool is_told, int64_t poses_every_ns, RgbdImportSummary *summary,
+                    const DepthCalibration &depth = {}) const {
     const std::string folder = folder_ / ("walk" + std::to_string(++walks_));
     const sphc_localizer_config config = test::sceneConfig();
     sphc_recording_writer *writer = nullptr;
@@ -130,7 +131,7 @@ class LateDepthTest : public testing::Test {
     EXPECT_EQ(sphc_recording_close(&writer, &message), SPHC_OK) << message.text;
     RecordingOptions options;
     options.folder = folder;
-    return importRgbd({{openRecording(options).get()}}, {}, {}, summary);
+    return importRgbd({{openRecording(options).get(), {}, {}, depth}}, {}, {}, summary);
   }
   // From where the same points are in another model, the median.
   static double offM(const PointModel &model, const PointModel &truth) {
@@ -167,6 +168,19 @@ TEST_F(LateDepthTest, IsTakenFromWhereItsCameraWas) {
   EXPECT_GT(untold_m, 0.03) << "the camera moves too little to tell";
   EXPECT_LT(told_m, 0.003);
   EXPECT_TRUE(framesLeftOut(summary).empty());
+}
+
+// The images have none, so points are off by what is told, along rays that are at most a fifth longer than their
+// depth.
+TEST_F(LateDepthTest, ABiasThatIsKnownIsTakenOut) {
+  RgbdImportSummary summary;
+  const PointModel truth = import(0, true, kStepNs, &summary);
+  DepthCalibration depth;
+  depth.mean = {0.05, 0};
+  EXPECT_NEAR(offM(import(0, true, kStepNs, &summary, depth), truth), 0.055, 0.006);
+  depth.mean = {0, 0.05};
+  depth.mid_m = 100;
+  EXPECT_GT(offM(import(0, true, kStepNs, &summary, depth), truth), 1);
 }
 
 TEST_F(LateDepthTest, ThatNoPosesTellOfIsNamed) {
