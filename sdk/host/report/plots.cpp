@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "host/report/top_view.h"
@@ -182,16 +183,32 @@ std::string markScript(double mark, const std::string &text) {
          ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreenHex + "'\n";
 }
 
+// gnuplot numbers whole powers of ten alone, of which a short range may hold none.
+std::string logarithmicTics(double left, double right) {
+  const bool is_long = right > 1e4 * left;
+  std::string places;
+  for (double decade = std::pow(10, std::floor(std::log10(left))); decade <= right; decade *= 10) {
+    for (const double step : {1, 2, 5}) {
+      if (step * decade < left || step * decade > right || (is_long && step > 1)) continue;
+      char place[32];
+      std::snprintf(place, sizeof place, "%g", step * decade);
+      places += (places.empty() ? "" : ", ") + std::string(place);
+    }
+  }
+  return "set xtics (" + places + ")\n";
+}
+
 std::string cdfScript(const Points &points, const std::string &unit, double mark, const std::string &mark_text) {
   if (points.empty()) return "";
   const double worst = points.back()[0];
   const bool marked = worst > mark / 3;  // else the mark would squeeze the curve to the left edge
   const double right = marked ? std::max(1.3 * mark, 1.1 * worst) : 1.15 * worst;
   const bool logarithmic = right > 4 * mark;  // and so would a long tail
+  const double left = logarithmic ? std::clamp(0.8 * points.front()[0], 1e-3, mark / 3) : 0;
   std::string script = kPlotLook + block("cdf", points);
   script += "set yrange [0:100]\nset ylabel 'share of frames, %'\nset xlabel 'error, " + unit + "'\n";
-  if (logarithmic) script += "set logscale x\n";
-  script += range("xrange", logarithmic ? std::max(1e-3, 0.8 * points.front()[0]) : 0, right);
+  if (logarithmic) script += "set logscale x\n" + logarithmicTics(left, right);
+  script += range("xrange", left, right);
   script += marked ? markScript(mark, mark_text)
                    : "set label 'all far within " + mark_text +
                          "' at graph 0.97, graph 0.08 right textcolor rgb '" + kGreenHex + "'\n";
