@@ -9,7 +9,6 @@ namespace sphc::host {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 host::Run runOff(const std::vector<double> &errors_m) {
   host::Run run;
@@ -30,6 +29,14 @@ TEST(ErrorCurve, FarOffHasNumbersOnItsAxisAndTheMark) {
 
 TEST(ErrorCurve, OfManyDecadesNumbersEachOnce) {
   EXPECT_THAT(translationCdf(runOff({0.0002, 9})).script, HasSubstr("set xtics (0.1, 1, 10, 100)"));
+}
+
+// The axis is of all frames.
+TEST(ErrorCurve, WithLostFramesSaysThatItIsOfTheOthers) {
+  host::Run run = runOff({0.001, 0.002});
+  EXPECT_THAT(translationCdf(run).script, HasSubstr("set label 'all far within 5 cm'"));
+  run.frames.push_back(lostFrame(2));
+  EXPECT_THAT(translationCdf(run).script, HasSubstr("set label 'those localized: all far within 5 cm'"));
 }
 
 }  // namespace
