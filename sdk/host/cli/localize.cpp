@@ -27,13 +27,12 @@
 #include "host/report/statistics.h"
 #include "host/report/table.h"
 #include "host/report/trajectory.h"
+#include "host/report/truth_words.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kManyContradictions = 10;  // per cent of the frames
-constexpr double kSure = 0.95;
-constexpr uint32_t kFewestSure = 5;
 
 struct LocalizeOptions {
   RecordingOptions recording;
@@ -202,20 +201,6 @@ void noteMixedFrames(const LocalizeOptions &options, const Run &run, const Conso
       " names the map of each pose");
 }
 
-// Poses that are sure and far from the truth, most of them: then it is the truth that lies elsewhere.
-void noteTruth(const Run &run, const Summary &summary, const Console &console) {
-  uint32_t sure = 0;
-  for (const FrameRecord &frame : run.frames) sure += isWrong(frame) && frame.confidence > kSure;
-  if (sure < kFewestSure || 2 * sure <= summary.localized) return;
-  console.warn("note: " + std::to_string(sure) + " of " + counted(summary.localized, "pose") +
-               " are sure and far from the recording's: " +
-               (run.aligned_frames
-                    ? "no rigid alignment brings the two together"
-                    : "was the map made by spherecloud map, or from another recording, it has a world of its own "
-                      "(--align compares after an alignment)") +
-               "; or the recording's poses are not in metres, not world_from_camera, or of other axes");
-}
-
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
@@ -229,7 +214,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   console.give(summaryJson(done, summary));
   noteMixedFrames(options, done, console);
   noteContradictions(summary, console);
-  noteTruth(done, summary, console);
+  if (const std::string doubt = doubtOfTruth(done, summary); !doubt.empty()) console.warn("note: " + doubt);
   if (summary.localized > 0) return kExitDone;
   console.warn(
       summary.outcomes[SPHC_OUTCOME_DEADLINE] == summary.frames

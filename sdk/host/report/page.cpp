@@ -7,6 +7,7 @@
 #include "host/report/encode.h"
 #include "host/report/page_style.h"
 #include "host/report/table.h"
+#include "host/report/truth_words.h"
 
 namespace sphc::host {
 
@@ -103,6 +104,17 @@ std::string warningOf(const Summary &s) {
          (s.wrong == 1 ? " wrong pose was" : " wrong poses were") +
          " given out</b>: further than 25 cm or 10 degrees from the truth. The list \"Worst poses\" below has "
          "them.</p>\n";
+}
+
+// Else the errors seem to be the localizer's alone.
+std::string truthNotes(const Run &run, const Summary &s) {
+  std::string html;
+  if (const std::string words = alignmentWords(run); !words.empty())
+    html += "<p class='warn'><b>Truth aligned</b> by " + counted(run.aligned_frames, "pose") + ": " +
+            escapeHtml(words) + ".</p>\n";
+  if (const std::string doubt = doubtOfTruth(run, s); !doubt.empty())
+    html += "<p class='warn'>" + escapeHtml(doubt) + ".</p>\n";
+  return html;
 }
 
 // The poses furthest from the truth, with what the localizer said of them.
@@ -223,7 +235,7 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
           escapeHtml(run.maps.front().path) +
           (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +
           "</p></div></header>\n<main>\n";
-  html += cards(run, s) + warningOf(s);
+  html += cards(run, s) + warningOf(s) + truthNotes(run, s);
   html += section("What you are looking at", howToRead(run, s));
   html += section("In pictures", plotSection(content));
   if (!content.overlays.empty())

@@ -235,9 +235,10 @@ Drawing pathFromTop(const Run &run) {
     of = " in " + run.maps[map].path;
     frame = "that map's own frame";
   }
-  std::string caption =
-      "Every dot is one answer" + of + ", " +
-      (path.truth.empty() ? "in " + frame + "." : "coloured by how far it is from the true place (grey line).");
+  std::string caption = "Every dot is one answer" + of + ", " +
+                        (path.truth.empty() ? "in " + frame + "."
+                                            : "coloured by how far it is from the true place (grey line" +
+                                                  std::string(run.aligned_frames ? ", aligned)." : ")."));
   if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
   if (map != SPHC_MAP_NONE) caption += " Answers in other maps have frames of their own and are not drawn.";
   if (path.centres.size() > 1)

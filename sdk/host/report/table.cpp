@@ -5,6 +5,7 @@
 
 #include "host/base/counted.h"
 #include "host/report/reliability.h"
+#include "host/report/truth_words.h"
 
 namespace sphc::host {
 namespace {
@@ -83,9 +84,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   addFaults(s, &rows);
   addHints(s, &rows);
   if (run.aligned_frames)
-    rows.push_back({"TRUTH ALIGNED", counted(run.aligned_frames, "pose"),
-                    std::string("the errors are what a rigid alignment of the recording's poses to ") +
-                        (run.maps.size() > 1 ? "each map" : "the map") + " leaves (--align)"});
+    rows.push_back({"TRUTH ALIGNED", counted(run.aligned_frames, "pose"), alignmentWords(run)});
   addErrors(run, s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

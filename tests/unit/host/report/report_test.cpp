@@ -71,6 +71,21 @@ TEST_F(ReportTest, WarnsOfWrongPosesAndListsTheWorst) {
   EXPECT_THAT(page, HasSubstr("<tr class='wrong'><td>123</td><td class='value'>50.0 cm</td>"));
 }
 
+TEST_F(ReportTest, SaysWhereTheTruthMayLieElsewhere) {
+  run_.frames.clear();
+  for (uint32_t i = 0; i < 8; ++i) {
+    run_.frames.push_back(goodFrame(i, 2.6, 3));
+    run_.frames.back().confidence = 0.99;
+  }
+  std::string page = write();
+  EXPECT_THAT(page, HasSubstr("it has a world of its own (--align compares after an alignment)"));
+  EXPECT_THAT(page, Not(HasSubstr("Truth aligned")));
+  run_.aligned_frames = 8;
+  page = write();
+  EXPECT_THAT(page, HasSubstr("<b>Truth aligned</b> by 8 poses: the errors are what a rigid alignment"));
+  EXPECT_THAT(page, HasSubstr("the true place (grey line, aligned)."));
+}
+
 TEST_F(ReportTest, SaysSoWithoutGnuplot) {
   const char *path = getenv("PATH");
   const std::string saved = path ? path : "";
