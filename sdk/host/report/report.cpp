@@ -112,9 +112,9 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
 }
 
-// By it the next run knows the folder, should this one be killed before its page is written.
+// By it the next run knows the folder, should this one end before its page is written.  The page of an earlier run
+// must not stay either: what lies beside it is no longer its own.
 void writeUnfinishedPage(const std::string &page) {
-  if (std::filesystem::exists(page)) return;
   writeFile(page,
             std::string("<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>") + kReportHead +
                 "</head>\n<body><p>This report was not finished. Run the same command again.</p></body></html>\n");

@@ -245,6 +245,14 @@ TEST_F(ReportTest, APageMarksTheFolderBeforeThePictures) {
   EXPECT_THAT(std::string(bytes.begin(), bytes.end()), Not(HasSubstr("not finished")));
 }
 
+TEST_F(ReportTest, APageOfAnEarlierRunDoesNotStayOverNewFigures) {
+  write();
+  const ImageOfFrame broken = [](const FrameRecord &) -> cv::Mat { throw std::runtime_error("no space left"); };
+  EXPECT_THROW(writeReport(folder_.path(), run_, broken), std::runtime_error);
+  const auto bytes = readBytes(folder_ / "report.html");
+  EXPECT_THAT(std::string(bytes.begin(), bytes.end()), HasSubstr("not finished"));
+}
+
 TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
   try {
     writeReport("/dev/null/report", run_, nullptr);
