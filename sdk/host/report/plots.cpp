@@ -312,12 +312,12 @@ Drawing stageTimes(const Summary &summary) {
   script += "set border 1\nset grid noytics\nunset key\nset ytics scale 0 (" + names +
             ")\nset yrange [-0.6:" + fixed(static_cast<double>(kStageCount) - 0.4, 1) + "]\n";
   script +=
-      "set xrange [0:*]\nset offsets 0, graph 0.12, 0, 0\nset xlabel 'milliseconds a frame: bar = median, whisker "
-      "= 90 % within'\nset style fill solid noborder\n";
+      "set xrange [0:*]\nset offsets 0, graph 0.2, 0, 0\nset xlabel 'milliseconds a frame: bar = median (whisker "
+      "= 90 % within)'\nset style fill solid noborder\n";
   script +=
       "plot $bars using (0):2:(0):1:($2-0.3):($2+0.3) with boxxyerror linecolor rgb '#60a5fa', "
       "$bars using 1:2:1:3 with xerrorbars pointtype 0 linewidth 1.5 linecolor rgb '#1e40af', "
-      "$bars using 3:2:(sprintf('%.1f', $1)) with labels left offset 1,0 textcolor rgb '#1e293b'";
+      "$bars using 3:2:(sprintf('%.1f (%.1f)', $1, $3)) with labels left offset 1,0 textcolor rgb '#1e293b'";
   return {"stage_times", "Where the time goes", "On this machine, one thread.", script, {560, 300}};
 }
 

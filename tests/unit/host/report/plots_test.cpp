@@ -39,5 +39,11 @@ TEST(ErrorCurve, WithLostFramesSaysThatItIsOfTheOthers) {
   EXPECT_THAT(translationCdf(run).script, HasSubstr("set label 'those localized: all far within 5 cm'"));
 }
 
+// The end of the whisker is the second number.
+TEST(StageTimes, TellMedianAndWhisker) {
+  EXPECT_THAT(stageTimes(summarize(runOff({0, 0}))).script,
+              HasSubstr("using 3:2:(sprintf('%.1f (%.1f)', $1, $3)) with labels"));
+}
+
 }  // namespace
 }  // namespace sphc::host
