@@ -1,6 +1,7 @@
 #include "host/report/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 #include <regex>
 #include <stdexcept>
@@ -11,6 +12,8 @@ namespace sphc::host {
 namespace {
 
 constexpr int kEnlarge = 2, kLegendHeight = 56;
+constexpr double kUsualWidth = 1280;
+constexpr double kLeastShrink = 0.75;  // of letters, before a second row
 const cv::Scalar kGrey(190, 190, 190), kOrange(40, 150, 255), kGreen(90, 220, 60), kDark(38, 30, 27),
     kWhite(245, 245, 245);
 
@@ -62,29 +65,62 @@ void drawMarks(cv::Mat *picture, const std::vector<sphc_localizer_observation> &
   }
 }
 
-// A coloured ring and its words; returns where the next one starts.
-int drawEntry(cv::Mat *picture, int x, int y, const cv::Scalar &color, const std::string &text) {
-  cv::circle(*picture, {x, y}, 9, color, 2, cv::LINE_AA);
-  cv::putText(*picture, text, {x + 18, y + 7}, cv::FONT_HERSHEY_SIMPLEX, 0.62, kWhite, 1, cv::LINE_AA);
-  return x + 18 + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.62, 1, nullptr).width + 28;
-}
-
 std::string verdict(const FrameRecord &frame) {
   if (!frame.localized) return outcomeName(frame.outcome);
   if (!frame.has_truth) return "localized";
   return fixed(100 * frame.translation_error_m, 2) + " cm, " + fixed(frame.rotation_error_deg, 2) + " deg off";
 }
 
+// Letters of a size; all lengths of the legend go with it.
+struct Letters {
+  double size;  // 1: of a picture of usual width
+
+  int px(int usual) const { return cvRound(size * usual); }
+  int width(const std::string &text) const {
+    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFont * size, 1, nullptr).width;
+  }
+  int entryWidth(const std::string &text) const { return px(18) + width(text) + px(28); }
+  void write(const std::string &text, int x, int y, cv::Mat *picture) const {
+    cv::putText(*picture, text, {x, y + px(7)}, cv::FONT_HERSHEY_SIMPLEX, kFont * size, kWhite, std::max(1, px(1)),
+                cv::LINE_AA);
+  }
+
+ private:
+  static constexpr double kFont = 0.62;
+};
+
+struct Entry {
+  cv::Scalar ring;
+  std::string text;
+};
+
+int legendHeight(int width) { return cvRound(kLegendHeight * std::max(1.0, width / kUsualWidth)); }
+
+// Rings and their words on the left, the verdict on the right; in a narrow picture it has a row of its own.
 void drawLegend(cv::Mat *picture, const FrameRecord &frame) {
-  const int y = picture->rows - kLegendHeight / 2;
-  int x = 24;
-  x = drawEntry(picture, x, y, kGrey, std::to_string(frame.keypoints) + " keypoints");
-  x = drawEntry(picture, x, y, kOrange, std::to_string(frame.matches) + " matched");
-  drawEntry(picture, x, y, kGreen, std::to_string(frame.inliers) + " agree with the pose");
-  const std::string text = "frame " + std::to_string(frame.sequence) + ": " + verdict(frame);
-  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.62, 1, nullptr).width;
-  cv::putText(*picture, text, {picture->cols - width - 24, y + 7}, cv::FONT_HERSHEY_SIMPLEX, 0.62, kWhite, 1,
-              cv::LINE_AA);
+  const std::array<Entry, 3> entries = {
+      {{kGrey, std::to_string(frame.keypoints) + " keypoints"},
+       {kOrange, std::to_string(frame.matches - std::min(frame.inliers, frame.matches)) + " matched, do not agree"},
+       {kGreen, std::to_string(frame.inliers) + " agree with the pose"}}};
+  const std::string last = "frame " + std::to_string(frame.sequence) + ": " + verdict(frame);
+  const Letters full = {std::max(1.0, picture->cols / kUsualWidth)};
+  int left = 2 * full.px(24);
+  for (const Entry &entry : entries) left += full.entryWidth(entry.text);
+  const double together = static_cast<double>(picture->cols) / (left + full.width(last));
+  const bool is_narrow = together < kLeastShrink;
+  const double widest = std::max(left, 2 * full.px(24) + full.width(last));
+  const Letters letters = {full.size *
+                           std::min(is_narrow ? kLeastShrink : 1.0, is_narrow ? picture->cols / widest : together)};
+  const int height = legendHeight(picture->cols);
+  const int y = picture->rows - (is_narrow ? 3 * height / 4 : height / 2);
+  int x = letters.px(24);
+  for (const Entry &entry : entries) {
+    cv::circle(*picture, {x, y}, letters.px(9), entry.ring, 2, cv::LINE_AA);
+    letters.write(entry.text, x + letters.px(18), y, picture);
+    x += letters.entryWidth(entry.text);
+  }
+  letters.write(last, picture->cols - letters.width(last) - letters.px(24), is_narrow ? y + height / 2 : y,
+                picture);
 }
 
 }  // namespace
@@ -122,8 +158,9 @@ bool isOverlayFile(const std::string &file) {
 
 cv::Mat drawOverlay(const cv::Mat &color, const FrameRecord &frame) {
   cv::Mat picture;
-  cv::copyMakeBorder(muted(color), picture, 0, kLegendHeight, 0, 0, cv::BORDER_CONSTANT, kDark);
-  cv::Mat image = picture.rowRange(0, picture.rows - kLegendHeight);
+  const cv::Mat seen = muted(color);
+  cv::copyMakeBorder(seen, picture, 0, legendHeight(seen.cols), 0, 0, cv::BORDER_CONSTANT, kDark);
+  cv::Mat image = picture.rowRange(0, seen.rows);
   drawMarks(&image, frame.observations);
   drawLegend(&picture, frame);
   return picture;

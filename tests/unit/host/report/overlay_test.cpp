@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "frames.h"
 
 namespace sphc::host {
@@ -66,6 +68,45 @@ TEST(Overlay, MarksAnInlierInGreen) {
     }
   }
   EXPECT_GT(green, 20);
+}
+
+// Gaps between things that are drawn in the legend below an image of `rows`, wider than those between words.
+int wideGaps(const cv::Mat &picture, int rows) {
+  cv::Mat legend, ink;
+  cv::cvtColor(picture.rowRange(rows, picture.rows), legend, cv::COLOR_BGR2GRAY);
+  cv::reduce(legend, ink, 0, cv::REDUCE_MAX);
+  const double between_words = 16 * picture.cols / 1280.0;
+  int gaps = 0, gap = 0;
+  bool is_begun = false;
+  for (int x = 0; x < ink.cols; ++x) {
+    if (ink.at<uint8_t>(0, x) < 60) {
+      ++gap;
+      continue;
+    }
+    gaps += is_begun && gap >= between_words;
+    is_begun = true;
+    gap = 0;
+  }
+  return gaps;
+}
+
+TEST(Overlay, WordsOfTheLegendDoNotOverlap) {
+  FrameRecord frame = goodFrame(3, 0.0135, 0.13);
+  frame.keypoints = 1000;
+  frame.matches = 186;
+  frame.inliers = 179;
+  for (const int width : {480, 640, 1440}) {
+    const cv::Mat image(40, width, CV_8UC3, cv::Scalar(100, 100, 100));
+    EXPECT_EQ(wideGaps(drawOverlay(image, frame), 80), 3) << width;
+  }
+}
+
+TEST(Overlay, LettersGrowWithTheImage) {
+  const auto legend = [](int width) {
+    return drawOverlay(cv::Mat(40, width, CV_8UC3, cv::Scalar(100, 100, 100)), goodFrame(1, 0, 0)).rows - 80;
+  };
+  EXPECT_EQ(legend(640), 56);
+  EXPECT_EQ(legend(1440), 126);
 }
 
 TEST(Overlay, ReadsEveryColourFormat) {
