@@ -98,12 +98,16 @@ std::string howToRead(const Run &run, const Summary &s) {
   return kHowToRead + withoutTruth(run);
 }
 
+constexpr uint32_t kWorstShown = 8, kMostWrongShown = 50;
+
 std::string warningOf(const Summary &s) {
   if (!s.wrong) return "";
   return "<p class='wrong'><b>" + std::to_string(s.wrong) +
          (s.wrong == 1 ? " wrong pose was" : " wrong poses were") +
-         " given out</b>: further than 25 cm or 10 degrees from the truth. The list \"Worst poses\" below has "
-         "them.</p>\n";
+         " given out</b>: further than 25 cm or 10 degrees from the truth. The list \"Worst poses\" below has " +
+         (s.wrong > kMostWrongShown ? "the worst " + std::to_string(kMostWrongShown) + "; frames.jsonl has all"
+                                    : std::string("them")) +
+         ".</p>\n";
 }
 
 // Else the errors seem to be the localizer's alone.
@@ -118,13 +122,12 @@ std::string truthNotes(const Run &run, const Summary &s) {
 }
 
 // The poses furthest from the truth, with what the localizer said of them.
-std::string worstPosesTable(const Run &run) {
-  constexpr size_t kShown = 8;
+std::string worstPosesTable(const Run &run, const Summary &s) {
   std::string html =
       "<table><thead><tr><th>frame</th><th>off</th><th></th><th>stated "
       "sigma</th><th>confidence</th><th>inliers</th>"
       "</tr></thead><tbody>\n";
-  const std::vector<size_t> worst = worstFrames(run, kShown);
+  const std::vector<size_t> worst = worstFrames(run, std::clamp(s.wrong, kWorstShown, kMostWrongShown));
   for (size_t index : worst) {
     const FrameRecord &frame = run.frames[index];
     html += std::string("<tr") + (isWrong(frame) ? " class='wrong'" : "") + "><td>" +
@@ -240,7 +243,7 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
   html += section("In pictures", plotSection(content));
   if (!content.overlays.empty())
     html += section("What the camera saw", kOverlayIntro + figures(content.overlays, "overlays"));
-  if (const std::string worst = worstPosesTable(run); !worst.empty()) html += section("Worst poses", worst);
+  if (const std::string worst = worstPosesTable(run, s); !worst.empty()) html += section("Worst poses", worst);
   html += section("Figures", tableOf(tableRows(run, s)) +
                                  "<div class='columns'><div><h3>What became of the frames</h3>" + outcomeTable(s) +
                                  "</div><div><h3>Where the bytes go</h3>" + memoryTable(run) + "</div></div>");

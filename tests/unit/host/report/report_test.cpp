@@ -71,6 +71,23 @@ TEST_F(ReportTest, WarnsOfWrongPosesAndListsTheWorst) {
   EXPECT_THAT(page, HasSubstr("<tr class='wrong'><td>123</td><td class='value'>50.0 cm</td>"));
 }
 
+TEST_F(ReportTest, ListsTheWrongPosesThatItAnnounces) {
+  const auto rows = [](const std::string &page) {
+    size_t count = 0;
+    for (size_t at = 0; (at = page.find("<tr class='wrong'>", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  for (uint32_t i = 0; i < 20; ++i) run_.frames.push_back(goodFrame(100 + i, 0.5, 3));
+  std::string page = write();
+  EXPECT_THAT(page, HasSubstr("<b>20 wrong poses were given out</b>"));
+  EXPECT_THAT(page, HasSubstr("below has them."));
+  EXPECT_EQ(rows(page), 20u);
+  for (uint32_t i = 0; i < 40; ++i) run_.frames.push_back(goodFrame(200 + i, 0.5, 3));
+  page = write();
+  EXPECT_THAT(page, HasSubstr("below has the worst 50; frames.jsonl has all."));
+  EXPECT_EQ(rows(page), 50u);
+}
+
 TEST_F(ReportTest, SaysWhereTheTruthMayLieElsewhere) {
   run_.frames.clear();
   for (uint32_t i = 0; i < 8; ++i) {
