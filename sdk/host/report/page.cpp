@@ -214,9 +214,10 @@ std::string mapSection(const Run &run, const PageContent &content) {
   }
   PagePicture picture = content.directions;
   picture.caption = std::string("All directions in the ") + (run.maps.size() > 1 ? "first " : "") +
-                    "map, seen from its centre, as a map of the sky: longitude to the left, up is up. "
-                    "The brightest spot is " +
-                    fixed(content.direction_peak, 1) + " times denser than an even spread.";
+                    "map, seen from its centre, as a map of the sky: longitude to the left, " +
+                    (content.is_up_an_axis ? "up is up" : "up is as the cameras were held on average") +
+                    ". The brightest spot is " + fixed(content.direction_peak, 1) +
+                    " times denser than an even spread.";
   return "<div class='columns' style='align-items:center'>" + figure(picture) + "<div>" + tableOf(rows) +
          "</div></div>";
 }

@@ -20,7 +20,8 @@ struct PageContent {
   std::vector<PagePicture> overlays, plots;
   PagePicture directions;
   double direction_peak = 0;
-  std::string plot_problem;  // why plots are missing, and the cure; empty when they are there
+  bool is_up_an_axis = true;  // of the base, in the picture of directions
+  std::string plot_problem;   // why plots are missing, and the cure; empty when they are there
 };
 
 // Near the beginning of every page that is written here.

@@ -85,12 +85,7 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
 }
 
 // The map's axes are those of the recording's world, which may lie any way; turn the sky upright.
-std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
-  std::vector<sphc_rigid> poses;
-  for (const FrameRecord &frame : run.frames) {
-    if (frame.localized) poses.push_back(frame.base_from_camera);
-  }
-  const TopView view = topView(poses);
+std::vector<std::array<double, 3>> uprightDirections(const Run &run, const TopView &view) {
   const auto &r = view.right, &u = view.up;
   const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
   std::vector<std::array<double, 3>> upright;
@@ -101,12 +96,22 @@ std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
   return upright;
 }
 
+TopView viewOfAnswers(const Run &run) {
+  std::vector<sphc_rigid> poses;
+  for (const FrameRecord &frame : run.frames) {
+    if (frame.localized) poses.push_back(frame.base_from_camera);
+  }
+  return topView(poses);
+}
+
 void addDirections(const std::string &folder, const Run &run, PageContent *content) {
   content->directions.title =
       run.maps.size() > 1 ? "All that the first map shows of its room" : "All that the map shows of the room";
   content->directions.mime = "image/png";
   double peak_upright = 0;
-  const cv::Mat picture = drawDirections(uprightDirections(run), &peak_upright);
+  const TopView view = viewOfAnswers(run);
+  content->is_up_an_axis = view.is_up_an_axis;
+  const cv::Mat picture = drawDirections(uprightDirections(run, view), &peak_upright);
   // Pixels of other axes count a little otherwise; the number that is told is that of `inspect`.
   drawDirections(run.maps.front().directions, &content->direction_peak);
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/report/directions.h"
 
@@ -37,12 +38,17 @@ Vector upward(const std::vector<sphc_rigid> &poses) {
     sum[2] -= 2 * (q[2] * q[3] + q[0] * q[1]);
   }
   if (poses.empty() || std::sqrt(dotProduct(sum, sum)) < 0.1 * static_cast<double>(poses.size())) return axis(2, 1);
-  const Vector up = unit(sum);
-  // A world with an axis close by was almost surely made with that axis up.
-  for (size_t i = 0; i < 3; ++i) {
-    if (std::abs(up[i]) > 0.9) return axis(i, up[i] > 0 ? 1 : -1);
-  }
-  return up;
+  return unit(sum);
+}
+
+// A world with an axis close by was almost surely made with that axis up.  Not so -y: where the first camera is the
+// world, -y is always close by, and as far from up as that camera was tilted.
+std::optional<Vector> axisNear(const Vector &up) {
+  constexpr double kNearCosine = 0.9, kNearCosineOfMinusY = 0.9962;  // 26 and 5 degrees
+  for (size_t i = 0; i < 3; ++i)
+    if (std::abs(up[i]) > (i == 1 && up[i] < 0 ? kNearCosineOfMinusY : kNearCosine))
+      return axis(i, up[i] > 0 ? 1 : -1);
+  return std::nullopt;
 }
 
 // Angle from `a` towards `b` of the direction in which the poses are spread most.
@@ -68,11 +74,14 @@ std::array<double, 2> TopView::project(const double p[3]) const {
 }
 
 TopView topView(const std::vector<sphc_rigid> &poses) {
-  const Vector sky = upward(poses);
+  const Vector mean = upward(poses);
+  const std::optional<Vector> up_axis = axisNear(mean);
+  const Vector sky = up_axis.value_or(mean);
   const Vector seed = axis(std::abs(sky[0]) < 0.9 ? 0 : 1, 1);
   const Vector a = unit(mix(1, seed, -dotProduct(seed, sky), sky)), b = cross(sky, a);
   const double turn = poses.size() > 1 ? longestExtent(poses, a, b) : 0;
   TopView view;
+  view.is_up_an_axis = up_axis.has_value();
   view.right = mix(std::cos(turn), a, std::sin(turn), b);
   view.up = cross(sky, view.right);
   return view;

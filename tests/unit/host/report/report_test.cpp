@@ -216,6 +216,12 @@ TEST_F(ReportTest, WorksWhenNothingWasLocalized) {
   EXPECT_THAT(write(), HasSubstr("no consensus"));
 }
 
+TEST_F(ReportTest, SaysWhatUpIsInThePictureOfDirections) {
+  EXPECT_THAT(write(), HasSubstr("longitude to the left, up is up."));
+  for (FrameRecord &frame : run_.frames) frame.base_from_camera.q_wxyz[1] = 0.15;  // looks down
+  EXPECT_THAT(write(), HasSubstr("up is as the cameras were held on average."));
+}
+
 TEST_F(ReportTest, LeavesNoPictureOfAnEarlierRun) {
   write();
   run_.frames.pop_back();

@@ -19,6 +19,31 @@ TEST(TopView, FindsTheHorizontalPlaneAndTheLongestWay) {
   EXPECT_NEAR(view.up[2], 0, 1e-9);
 }
 
+// A camera turned about its x axis, in a world that the first camera made: 0 is level, with up -y.
+sphc_rigid pitched(double deg) {
+  const double half = deg * M_PI / 360;
+  return {{std::cos(half), std::sin(half), 0, 0}, {0, 0, 0}};
+}
+
+double cosineOfUp(const TopView &view, const std::array<double, 3> &up) {
+  const auto &r = view.right, &u = view.up;
+  return up[0] * (r[1] * u[2] - r[2] * u[1]) + up[1] * (r[2] * u[0] - r[0] * u[2]) +
+         up[2] * (r[0] * u[1] - r[1] * u[0]);
+}
+
+// That the first camera looked down by 15 degrees does not put up where it held its top.
+TEST(TopView, InAWorldOfTheFirstCameraGoesByTheMean) {
+  const TopView tilted = topView({pitched(12), pitched(18)});
+  EXPECT_FALSE(tilted.is_up_an_axis);
+  EXPECT_NEAR(cosineOfUp(tilted, {0, -std::cos(15 * M_PI / 180), -std::sin(15 * M_PI / 180)}), 1, 1e-9);
+  const TopView level = topView({pitched(2), pitched(4)});
+  EXPECT_TRUE(level.is_up_an_axis);
+  EXPECT_NEAR(cosineOfUp(level, {0, -1, 0}), 1, 1e-9);
+  const TopView y_up = topView({pitched(195)});
+  EXPECT_TRUE(y_up.is_up_an_axis);
+  EXPECT_NEAR(cosineOfUp(y_up, {0, 1, 0}), 1, 1e-9);
+}
+
 TEST(TopView, IsNotMirrored) {
   const TopView view = topView({upright(0, 0), upright(1, 0)});
   // right x up must point to the sky.
