@@ -42,11 +42,12 @@ cv::Mat density(const cv::Mat &counts, double total) {
   return result;
 }
 
-void drawGrid(cv::Mat *picture) {
+void drawGrid(Longitudes longitudes, cv::Mat *picture) {
   const cv::Scalar line(120, 110, 105), word(215, 210, 205);
   for (int degrees = -120; degrees <= 120; degrees += 60) {
     const int x = kWidth / 2 - degrees * kWidth / 360;
     cv::line(*picture, {x, 0}, {x, kHeight}, line, 1, cv::LINE_AA);
+    if (longitudes == Longitudes::kBare) continue;
     cv::putText(*picture, std::to_string(degrees), {x + 5, kHeight - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, word, 1,
                 cv::LINE_AA);
   }
@@ -60,7 +61,7 @@ void drawGrid(cv::Mat *picture) {
 
 }  // namespace
 
-cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, double *peak) {
+cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, double *peak, Longitudes longitudes) {
   const cv::Mat relative = density(countDirections(directions), static_cast<double>(directions.size()));
   cv::minMaxLoc(relative, nullptr, peak);
   cv::Mat tone, picture;
@@ -69,7 +70,7 @@ cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, dou
   tone.convertTo(tone, CV_8U, 255);
   cv::applyColorMap(tone, picture, cv::COLORMAP_INFERNO);
   cv::Mat grid = picture.clone();
-  drawGrid(&grid);
+  drawGrid(longitudes, &grid);
   cv::addWeighted(grid, 0.7, picture, 0.3, 0, picture);
   return picture;
 }

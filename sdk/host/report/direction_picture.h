@@ -6,8 +6,11 @@
 
 namespace sphc::host {
 
-// Density of unit directions, equirectangular: longitude (around z, x in the middle) to the right, z up. Brightness
+enum class Longitudes { kNumbered, kBare };  // bare: of directions that were turned first
+
+// Density of unit directions, equirectangular: longitude (around z, x in the middle) to the left, z up. Brightness
 // is the density over that of evenly spread directions; `*peak` receives the brightest.
-cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, double *peak);
+cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, double *peak,
+                       Longitudes longitudes = Longitudes::kNumbered);
 
 }  // namespace sphc::host

@@ -30,6 +30,7 @@ std::string color(const char *rgb) { return std::string("linecolor rgb '") + rgb
 struct Path {
   Points truth, estimate, unjudged, lost;  // unjudged: answers where the truth is not known
   Points centres;
+  TopView view;
 };
 
 // Of several maps, each with a frame of its own: the one that most answers are in.  SPHC_MAP_NONE: all share one.
@@ -52,8 +53,8 @@ Path splitPath(const Run &run, uint32_t map) {
     else if (frame.localized)
       poses.push_back(frame.base_from_camera);
   }
-  const TopView view = topView(poses);
   Path path;
+  const TopView view = path.view = topView(poses);
   for (size_t i = 0; i < run.centres_m.size(); ++i) {
     if (run.centres_m.size() > 1 && map != SPHC_MAP_NONE && i != map) continue;
     const auto centre = view.project(run.centres_m[i].data());
@@ -128,13 +129,39 @@ const char kErrorColors[] =
     "set colorbox user origin 0.93,0.2 size 0.018,0.6 noborder\n"
     "set rmargin at screen 0.9\n";
 
+// 1, 2 or 5 times a power of ten, with at most ten of it in the length.
+double ticStep(double length) {
+  const double least = length / 10, decade = std::pow(10, std::floor(std::log10(least)));
+  for (const double step : {1, 2, 5})
+    if (step * decade >= least) return step * decade;
+  return 10 * decade;
+}
+
+// One step for both axes, on which a metre is as long; a short one has a tic too.
+std::string pathTics(const Extent &extent) {
+  const double step = ticStep(extent.length());
+  std::string script;
+  for (size_t i = 0; i < 2; ++i)
+    script += std::string("set ") + (i ? "y" : "x") + "tics " +
+              fixed(extent.high[i] - extent.low[i] < step ? step / 2 : step, 6) + "\n";
+  return script;
+}
+
+std::string pathLabels(const TopView &view) {
+  if (!view.is_up_an_axis) return "set xlabel 'metres'\nset ylabel 'metres'\n";
+  const auto name = [](const std::array<double, 3> &axis) {
+    return "xyz"[std::max_element(axis.begin(), axis.end()) - axis.begin()];
+  };
+  return std::string("set xlabel '") + name(view.right) + ", metres'\nset ylabel '" + name(view.up) + ", metres'\n";
+}
+
 std::string pathScript(const Path &path, const Extent &extent) {
   const bool truth = !path.truth.empty();
   std::string script = kPlotLook + block("truth", path.truth) + block("estimate", path.estimate) +
                        block("unjudged", path.unjudged) + block("lost", path.lost) + block("centre", path.centres);
-  script += "set size ratio -1\nset xlabel 'metres'\nset ylabel 'metres'\n";
+  script += "set size ratio -1\n" + pathLabels(path.view) + pathTics(extent);
   script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
-  script += "set key outside top center horizontal reverse Left samplen 2\n";
+  script += "set key at screen 0.5, screen 0.99 center top horizontal reverse Left samplen 2\nset tmargin 3.5\n";
   if (truth) script += kErrorColors;
   const std::string dots = " with points pointtype 7 pointsize 0.7 ";
   script += "plot ";
@@ -245,6 +272,10 @@ Drawing pathFromTop(const Run &run) {
     caption += " The stars are the sphere centres, from which the maps' directions point.";
   else if (!path.centres.empty())
     caption += " The star is the sphere centre, from which the map's directions point.";
+  if (!path.view.is_up_an_axis)
+    caption +=
+        " Above is as the cameras were held on average, and the longest way runs to the right: these are "
+        "not the axes of the poses.";
   return {"path", "The path from above", caption, pathScript(path, extent), pathSize(extent)};
 }
 

@@ -111,7 +111,9 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
   double peak_upright = 0;
   const TopView view = viewOfAnswers(run);
   content->is_up_an_axis = view.is_up_an_axis;
-  const cv::Mat picture = drawDirections(uprightDirections(run, view), &peak_upright);
+  const bool is_turned = view.right != TopView().right || view.up != TopView().up;
+  const cv::Mat picture = drawDirections(uprightDirections(run, view), &peak_upright,
+                                         is_turned ? Longitudes::kBare : Longitudes::kNumbered);
   // Pixels of other axes count a little otherwise; the number that is told is that of `inspect`.
   drawDirections(run.maps.front().directions, &content->direction_peak);
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});

@@ -41,13 +41,17 @@ Vector upward(const std::vector<sphc_rigid> &poses) {
   return unit(sum);
 }
 
+struct UpAxis {
+  size_t index = 0;
+  bool is_negative = false;
+};
+
 // A world with an axis close by was almost surely made with that axis up.  Not so -y: where the first camera is the
 // world, -y is always close by, and as far from up as that camera was tilted.
-std::optional<Vector> axisNear(const Vector &up) {
+std::optional<UpAxis> axisNear(const Vector &up) {
   constexpr double kNearCosine = 0.9, kNearCosineOfMinusY = 0.9962;  // 26 and 5 degrees
   for (size_t i = 0; i < 3; ++i)
-    if (std::abs(up[i]) > (i == 1 && up[i] < 0 ? kNearCosineOfMinusY : kNearCosine))
-      return axis(i, up[i] > 0 ? 1 : -1);
+    if (std::abs(up[i]) > (i == 1 && up[i] < 0 ? kNearCosineOfMinusY : kNearCosine)) return UpAxis{i, up[i] < 0};
   return std::nullopt;
 }
 
@@ -74,14 +78,19 @@ std::array<double, 2> TopView::project(const double p[3]) const {
 }
 
 TopView topView(const std::vector<sphc_rigid> &poses) {
-  const Vector mean = upward(poses);
-  const std::optional<Vector> up_axis = axisNear(mean);
-  const Vector sky = up_axis.value_or(mean);
+  TopView view;
+  const Vector sky = upward(poses);
+  if (const std::optional<UpAxis> axis_up = axisNear(sky)) {
+    // The other two in their own directions, so that places are those of the base: right x up points to the sky.
+    const size_t next = (axis_up->index + 1) % 3, last = (axis_up->index + 2) % 3;
+    view.right = axis(axis_up->is_negative ? last : next, 1);
+    view.up = axis(axis_up->is_negative ? next : last, 1);
+    return view;
+  }
+  view.is_up_an_axis = false;
   const Vector seed = axis(std::abs(sky[0]) < 0.9 ? 0 : 1, 1);
   const Vector a = unit(mix(1, seed, -dotProduct(seed, sky), sky)), b = cross(sky, a);
   const double turn = poses.size() > 1 ? longestExtent(poses, a, b) : 0;
-  TopView view;
-  view.is_up_an_axis = up_axis.has_value();
   view.right = mix(std::cos(turn), a, std::sin(turn), b);
   view.up = cross(sky, view.right);
   return view;

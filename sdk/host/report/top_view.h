@@ -7,7 +7,8 @@
 
 namespace sphc::host {
 
-// Two horizontal unit vectors of the base, as seen from above; the path's longest extent runs to the right.
+// Two horizontal unit vectors of the base, as seen from above: axes of the base where an axis is up; else the
+// path's longest extent runs to the right.
 struct TopView {
   std::array<double, 3> right = {1, 0, 0}, up = {0, 1, 0};  // `up` of the picture
   bool is_up_an_axis = true;                                // of the base; else as the cameras were held on average

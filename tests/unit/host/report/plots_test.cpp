@@ -39,6 +39,39 @@ TEST(ErrorCurve, WithLostFramesSaysThatItIsOfTheOthers) {
   EXPECT_THAT(translationCdf(run).script, HasSubstr("set label 'those localized: all far within 5 cm'"));
 }
 
+host::Run pathOf(const std::vector<std::array<double, 2>> &places) {
+  host::Run run;
+  run.maps.resize(1);
+  for (const auto &[x, y] : places) {
+    run.frames.push_back(goodFrame(static_cast<uint32_t>(run.frames.size()), 0, 0));
+    for (sphc_rigid *pose : {&run.frames.back().base_from_camera, &run.frames.back().truth_base_from_camera})
+      *pose = {{0.5, -0.5, 0.5, -0.5}, {x, y, 1}};  // z is up
+  }
+  return run;
+}
+
+TEST(PathFromTop, HasThePlacesOfThePoses) {
+  const std::string script = pathFromTop(pathOf({{1, 2}, {1.25, 5.5}})).script;
+  EXPECT_THAT(script, HasSubstr("$truth << EOD\n1.000000 2.000000 0.000000\n1.250000 5.500000"));
+  EXPECT_THAT(script, HasSubstr("set xlabel 'x, metres'\nset ylabel 'y, metres'"));
+}
+
+// Else the labels of the short axis lie on each other.
+TEST(PathFromTop, HasOneTicStepForBothAxes) {
+  EXPECT_THAT(pathFromTop(pathOf({{0, 2}, {4, 2.3}})).script,
+              HasSubstr("set xtics 0.500000\nset ytics 0.500000\n"));
+}
+
+TEST(PathFromTop, SaysWhereItsAxesAreNotThoseOfThePoses) {
+  host::Run run = pathOf({{0, 2}, {4, 2.3}});
+  EXPECT_EQ(pathFromTop(run).caption.find("not the axes"), std::string::npos);
+  const sphc_rigid tilt = {{std::cos(M_PI / 8), 0, std::sin(M_PI / 8), 0}, {0, 0, 0}};
+  for (FrameRecord &frame : run.frames)
+    sphc_rigid_compose(&tilt, &frame.truth_base_from_camera, &frame.truth_base_from_camera);
+  EXPECT_THAT(pathFromTop(run).caption, HasSubstr("these are not the axes of the poses."));
+  EXPECT_THAT(pathFromTop(run).script, HasSubstr("set xlabel 'metres'"));
+}
+
 // The end of the whisker is the second number.
 TEST(StageTimes, TellMedianAndWhisker) {
   EXPECT_THAT(stageTimes(summarize(runOff({0, 0}))).script,
