@@ -100,8 +100,12 @@ Json summaryJson(const Run &run, const Summary &s) {
                {"unreadable", run.unreadable.size()},
                {"localized", s.localized},
                {"localized_percent", percent(s.localized, s.frames)}};
-  for (const MapFacts &map : run.maps)
-    json["maps"].push_back({{"path", map.path}, {"map_id", map.id}, {"points", map.points}});
+  const std::vector<size_t> answers = answersByMap(run);
+  for (size_t i = 0; i < run.maps.size(); ++i)
+    json["maps"].push_back({{"path", run.maps[i].path},
+                            {"map_id", run.maps[i].id},
+                            {"points", run.maps[i].points},
+                            {"localized", answers[i]}});
   json["tracking"] = s.tracking;
   json["guided"] = s.guided;
   for (const char *name : {"outcomes", "faults", "hints"}) json[name] = Json::object();

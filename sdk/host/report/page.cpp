@@ -203,8 +203,10 @@ std::string settingsTable(const Run &run) {
 
 std::string mapSection(const Run &run, const PageContent &content) {
   std::vector<Row> rows;
-  for (const MapFacts &map : run.maps) {
-    if (run.maps.size() > 1) rows.push_back({"map", map.path, ""});
+  const std::vector<size_t> answers = answersByMap(run);
+  for (size_t i = 0; i < run.maps.size(); ++i) {
+    const MapFacts &map = run.maps[i];
+    if (run.maps.size() > 1) rows.push_back({"map", map.path, counted(answers[i], "frame") + " localized in it"});
     rows.push_back({"points, real and fake", std::to_string(map.points), "the file does not tell them apart"});
     rows.push_back({"bytes", humanBytes(static_cast<double>(map.file_bytes)), ""});
     rows.push_back({"map id", map.id.substr(0, 12) + "…", "random name of this build"});
@@ -213,11 +215,11 @@ std::string mapSection(const Run &run, const PageContent &content) {
     rows.push_back({"band", bandName(map.band), "the light of its images"});
   }
   PagePicture picture = content.directions;
-  picture.caption = std::string("All directions in the ") + (run.maps.size() > 1 ? "first " : "") +
-                    "map, seen from its centre, as a map of the sky: longitude to the left, " +
-                    (content.is_up_an_axis ? "up is up" : "up is as the cameras were held on average") +
-                    ". The brightest spot is " + fixed(content.direction_peak, 1) +
-                    " times denser than an even spread.";
+  picture.caption =
+      "All directions in " + (run.maps.size() > 1 ? run.maps[mapOfMostAnswers(run)].path : std::string("the map")) +
+      ", seen from its centre, as a map of the sky: longitude to the left, " +
+      (content.is_up_an_axis ? "up is up" : "up is as the cameras were held on average") +
+      ". The brightest spot is " + fixed(content.direction_peak, 1) + " times denser than an even spread.";
   return "<div class='columns' style='align-items:center'>" + figure(picture) + "<div>" + tableOf(rows) +
          "</div></div>";
 }

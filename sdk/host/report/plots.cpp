@@ -34,11 +34,7 @@ struct Path {
 };
 
 // Of several maps, each with a frame of its own: the one that most answers are in.  SPHC_MAP_NONE: all share one.
-uint32_t mapToDraw(const Run &run) {
-  if (basesOfAnswers(run) < 2) return SPHC_MAP_NONE;
-  const std::vector<size_t> answers = answersByMap(run);
-  return static_cast<uint32_t>(std::max_element(answers.begin(), answers.end()) - answers.begin());
-}
+uint32_t mapToDraw(const Run &run) { return basesOfAnswers(run) < 2 ? SPHC_MAP_NONE : mapOfMostAnswers(run); }
 
 bool isDrawn(const FrameRecord &frame, uint32_t map) {
   return map == SPHC_MAP_NONE || (frame.localized && frame.map == map);
@@ -258,9 +254,9 @@ Drawing pathFromTop(const Run &run) {
   if (path.truth.empty() && path.unjudged.empty()) return {"path", "", "", "", {}};
   const Extent extent = extentOf(&path);
   std::string of, frame = run.base == "map" ? "the map's own frame" : "the world that the map was made in";
-  if (map != SPHC_MAP_NONE) {
-    of = " in " + run.maps[map].path;
-    frame = "that map's own frame";
+  if (map != SPHC_MAP_NONE || (run.maps.size() > 1 && mapsWithAnswers(run) == 1)) {
+    of = " in " + run.maps[mapOfMostAnswers(run)].path;
+    if (run.base == "map") frame = "that map's own frame";
   }
   std::string caption = "Every dot is one answer" + of + ", " +
                         (path.truth.empty() ? "in " + frame + "."

@@ -89,33 +89,35 @@ std::vector<std::array<double, 3>> uprightDirections(const Run &run, const TopVi
   const auto &r = view.right, &u = view.up;
   const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
   std::vector<std::array<double, 3>> upright;
-  for (const auto &d : run.maps.front().directions) {
+  for (const auto &d : run.maps[mapOfMostAnswers(run)].directions) {
     const auto flat = view.project(d.data());
     upright.push_back({flat[0], flat[1], sky[0] * d[0] + sky[1] * d[1] + sky[2] * d[2]});
   }
   return upright;
 }
 
-TopView viewOfAnswers(const Run &run) {
+// Each map may have axes of its own.
+TopView viewOfAnswers(const Run &run, uint32_t map) {
   std::vector<sphc_rigid> poses;
   for (const FrameRecord &frame : run.frames) {
-    if (frame.localized) poses.push_back(frame.base_from_camera);
+    if (frame.localized && frame.map == map) poses.push_back(frame.base_from_camera);
   }
   return topView(poses);
 }
 
 void addDirections(const std::string &folder, const Run &run, PageContent *content) {
-  content->directions.title =
-      run.maps.size() > 1 ? "All that the first map shows of its room" : "All that the map shows of the room";
+  const uint32_t map = mapOfMostAnswers(run);
+  content->directions.title = run.maps.size() > 1 ? "All that " + run.maps[map].path + " shows of its room"
+                                                  : std::string("All that the map shows of the room");
   content->directions.mime = "image/png";
   double peak_upright = 0;
-  const TopView view = viewOfAnswers(run);
+  const TopView view = viewOfAnswers(run, map);
   content->is_up_an_axis = view.is_up_an_axis;
   const bool is_turned = view.right != TopView().right || view.up != TopView().up;
   const cv::Mat picture = drawDirections(uprightDirections(run, view), &peak_upright,
                                          is_turned ? Longitudes::kBare : Longitudes::kNumbered);
   // Pixels of other axes count a little otherwise; the number that is told is that of `inspect`.
-  drawDirections(run.maps.front().directions, &content->direction_peak);
+  drawDirections(run.maps[map].directions, &content->direction_peak);
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
 }
 

@@ -101,6 +101,11 @@ size_t mapsWithAnswers(const Run &run) {
   return answers.size() - static_cast<size_t>(std::count(answers.begin(), answers.end(), size_t{0}));
 }
 
+uint32_t mapOfMostAnswers(const Run &run) {
+  const std::vector<size_t> answers = answersByMap(run);
+  return static_cast<uint32_t>(std::max_element(answers.begin(), answers.end()) - answers.begin());
+}
+
 size_t basesOfAnswers(const Run &run) {
   return run.base == "map" || run.aligned_frames > 0 ? mapsWithAnswers(run) : 1;
 }

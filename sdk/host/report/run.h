@@ -91,6 +91,8 @@ uint64_t mapBytes(const Run &run);
 // Localized frames in each map.
 std::vector<size_t> answersByMap(const Run &run);
 size_t mapsWithAnswers(const Run &run);
+// The map that most answers are in; the first where there is none.
+uint32_t mapOfMostAnswers(const Run &run);
 // In how many frames of reference the answers are: in one, or, without notes or after an alignment, in that of each
 // map with an answer.
 size_t basesOfAnswers(const Run &run);

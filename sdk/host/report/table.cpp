@@ -30,6 +30,14 @@ void addHints(const Summary &s, std::vector<Row> *rows) {
           {std::string("no pose, ") + kHintWords[i].name, share(s.hints[i], s.frames), kHintWords[i].cure});
 }
 
+void addMaps(const Run &run, const Summary &s, std::vector<Row> *rows) {
+  if (run.maps.size() < 2) return;
+  const std::vector<size_t> answers = answersByMap(run);
+  for (size_t i = 0; i < answers.size(); ++i)
+    rows->push_back(
+        {"in " + run.maps[i].path, std::to_string(answers[i]), "of " + std::to_string(s.localized) + " localized"});
+}
+
 void addErrors(const Run &run, const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
     rows->push_back({"error against the truth", "not known",
@@ -74,6 +82,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   rows.push_back({"frames", std::to_string(s.frames),
                   run.unreadable.empty() ? "" : std::to_string(run.unreadable.size()) + " more could not be read"});
   rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
+  addMaps(run, s, &rows);
   if (s.tracking > 0)
     rows.push_back(
         {"tracking", share(s.tracking, s.frames),

@@ -43,6 +43,16 @@ TEST(FrameJson, NamesTheMapFrame) {
   EXPECT_TRUE(json.contains("map_from_camera"));
 }
 
+TEST(SummaryJson, CountsTheAnswersInEachMap) {
+  host::Run run;
+  run.maps.resize(2);
+  run.frames = {goodFrame(1, 0, 0), goodFrame(2, 0, 0), lostFrame(3)};
+  for (FrameRecord &frame : run.frames) frame.map = 1;
+  const auto json = summaryJson(run, summarize(run));
+  EXPECT_EQ(json["maps"][0]["localized"], 0);
+  EXPECT_EQ(json["maps"][1]["localized"], 2);
+}
+
 TEST(SummaryJson, SaysNullForWhatIsNotKnown) {
   host::Run run;
   run.frames = {lostFrame(1)};

@@ -163,11 +163,12 @@ TEST_F(ReportTest, DrawsAnswersWithoutTruthApart) {
 
 TEST_F(ReportTest, OfSeveralMapsAllCentresAreDrawn) {
   run_.base = "world";
+  run_.maps[0].path = "room.sphc";
   run_.maps.resize(2, run_.maps.front());
   run_.centres_m = {{0.1, 0.2, 1}, {0.5, 0.1, 1}, {90, 0, 1}};  // the last is too far off
   const std::string page = write();
   EXPECT_THAT(page, HasSubstr("The stars are the sphere centres"));
-  EXPECT_THAT(page, HasSubstr("All directions in the first map"));
+  EXPECT_THAT(page, HasSubstr("All directions in room.sphc, seen from its centre"));
   const auto bytes = readBytes(folder_ / "plots/path.gp");
   EXPECT_EQ(linesOf({bytes.begin(), bytes.end()}, "centre"), 2);
 }
@@ -184,7 +185,10 @@ TEST_F(ReportTest, AnswersInFramesOfSeveralMapsAreNotDrawnAsOnePath) {
   const auto bytes = readBytes(folder_ / "plots/path.gp");
   EXPECT_EQ(linesOf({bytes.begin(), bytes.end()}, "unjudged"), 5) << "frames 3 to 7";
   for (FrameRecord &frame : run_.frames) frame.map = 1;
-  EXPECT_THAT(write(), HasSubstr("Every dot is one answer, in the map&#39;s own frame."));
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("Every dot is one answer in hall.sphc, in that map&#39;s own frame."));
+  EXPECT_THAT(page, HasSubstr("All that hall.sphc shows of its room"));
+  EXPECT_THAT(page, HasSubstr("<td class='value'>hall.sphc</td><td class='soft'>8 frames localized in it</td>"));
 }
 
 // After an alignment each map has a world of its own too.

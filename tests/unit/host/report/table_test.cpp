@@ -24,6 +24,20 @@ TEST(Table, HoldsTheFiguresAPersonAsksFor) {
   EXPECT_THAT(text, HasSubstr("3.00 MB"));
 }
 
+TEST(Table, OfSeveralMapsSaysHowManyAnswersAreInEach) {
+  host::Run run;
+  run.maps.resize(1);
+  run.maps[0].path = "kitchen.sphc";
+  run.frames = {goodFrame(1, 0.01, 0.5), goodFrame(2, 0.01, 0.5), lostFrame(3)};
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), testing::Not(HasSubstr("kitchen.sphc")));
+  run.maps.resize(2);
+  run.maps[1].path = "hall.sphc";
+  for (FrameRecord &frame : run.frames) frame.map = 1;
+  const std::string text = tableText(tableRows(run, summarize(run)));
+  EXPECT_THAT(text, testing::ContainsRegex("in kitchen.sphc +0   of 2 localized"));
+  EXPECT_THAT(text, testing::ContainsRegex("in hall.sphc +2   of 2 localized"));
+}
+
 TEST(Table, TellsWhyFramesHaveNoPoseAndTheCure) {
   host::Run run;
   run.maps.resize(1);
