@@ -64,15 +64,9 @@ const char *whyNotLocalized(const LiveTally &tally) {
   return hadNoDepthAtAll(tally) ? kNoDepth : kNotLocalized;
 }
 
-std::string statusText(const LiveTally &tally, const sphc_localizer_result &result,
-                       const std::vector<std::string> &maps, const Rig &rig, double ms) {
+LiveNumbers numbersOf(const LiveTally &tally, const Rig &rig, double ms) {
   const sphc_pairer_counts counts = rig.counts();
-  char state[16], rates[96];
-  std::snprintf(state, sizeof state, "%-12s ", stateName(result.state));
-  std::snprintf(rates, sizeof rates, " | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
-                result.inliers, ms, tally.color.hz(), tally.depth.hz(), tally.poses.hz(),
-                static_cast<unsigned long long>(counts.color_lost + counts.depth_lost));
-  return state + livePoseText(result, maps) + rates;
+  return {tally.color.hz(), tally.depth.hz(), tally.poses.hz(), counts.color_lost + counts.depth_lost, ms};
 }
 
 nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_result &result, double ms) {
@@ -129,9 +123,9 @@ void lookAt(const CapturePair &pair, const LiveOptions &options, const Rig &rig,
   tally->total_ms += ms;
   countBits(kFaultWords, result.faults, &tally->faults);
   countBits(kHintWords, result.hints, &tally->hints);
-  tally->poses.count();
+  if (result.outcome == SPHC_OUTCOME_LOCALIZED) tally->poses.count();
   console.giveLine(frameJson(pair, result, ms));
-  line->show(statusText(*tally, result, options.maps, rig, ms));
+  line->show(liveLine(result, options.maps, numbersOf(*tally, rig, ms)));
 }
 
 bool isOver(const LiveOptions &options, const LiveTally &tally, std::chrono::steady_clock::time_point begin) {
@@ -224,8 +218,9 @@ Command liveCommand(CLI::App *root) {
   auto options = std::make_shared<LiveOptions>();
   CLI::App *app = root->add_subcommand("live");
   app->description(
-      "Capture, pair, localize: where is the camera now?\n\nOn a terminal one line shows the pose, its confidence, "
-      "rates and losses; with --json a line of\nJSON comes for every frame.");
+      "Capture, pair, localize: where is the camera now?\n\nOn a terminal one line shows rates a second (colour and "
+      "depth images in, poses out), images lost,\nthe pose and its confidence; with --json a line of JSON comes for "
+      "every frame.");
   app->footer(kLiveExample);
   addRigOptions(app, &options->rig);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")

@@ -16,10 +16,4 @@ const std::array<BitWords, 6> kHintWords = {{
 
 std::string hintNames(uint32_t hints) { return namesOf(kHintWords, hints); }
 
-std::string firstHint(uint32_t hints) {
-  for (const BitWords &words : kHintWords)
-    if (hints & words.bit) return std::string(words.name) + ": " + words.cure;
-  return "";
-}
-
 }  // namespace sphc::host

@@ -9,7 +9,5 @@ extern const std::array<BitWords, 6> kHintWords;
 
 // "too dark, too fast"; "" of none.
 std::string hintNames(uint32_t hints);
-// Of the first alone, for one line: "too dark: more light"; "" of none.
-std::string firstHint(uint32_t hints);
 
 }  // namespace sphc::host

@@ -13,10 +13,5 @@ TEST(HintWords, EachBitHasAName) {
   EXPECT_EQ(hintNames(SPHC_HINT_TOO_DARK | SPHC_HINT_AMBIGUOUS), "too dark, ambiguous");
 }
 
-TEST(HintWords, TheFirstIsSaidWithItsCure) {
-  EXPECT_EQ(firstHint(SPHC_HINT_TOO_DARK | SPHC_HINT_NOT_IN_MAP), "too dark: more light");
-  EXPECT_EQ(firstHint(0), "");
-}
-
 }  // namespace
 }  // namespace sphc::host
