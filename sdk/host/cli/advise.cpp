@@ -1,4 +1,5 @@
 // spherecloud advise: is this recording good enough for a map?
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/cli/field_warnings.h"
 #include "host/report/coverage_picture.h"
+#include "host/report/directions.h"
 #include "host/report/picture_file.h"
 #include "host/report/statistics.h"
 #include "host/report/table.h"
@@ -89,9 +91,16 @@ nlohmann::ordered_json json(const Advice &advice, const std::vector<std::string>
     value["holes"].push_back(
         {{"yaw_deg", hole.yaw_deg}, {"pitch_deg", hole.pitch_deg}, {"radius_deg", hole.radius_deg}});
   for (const Recall &recall : advice.recalls)
-    value["recall"].push_back({{"eta", recall.eta}, {"good", recall.good}, {"frames", recall.frames}});
+    value["recall"].push_back({{"eta", recall.eta},
+                               {"good", recall.good},
+                               {"frames", recall.frames},
+                               {"median_m", std::isfinite(recall.median_m) ? nlohmann::ordered_json(recall.median_m)
+                                                                           : nlohmann::ordered_json()}});
   for (const Failure &failure : advice.failures)
-    value["failures"].push_back({{"sequence", failure.sequence}, {"why", failure.why}});
+    value["failures"].push_back({{"sequence", failure.sequence},
+                                 {"why", failure.why},
+                                 {"yaw_deg", std::atan2(failure.view[1], failure.view[0]) / kDegree},
+                                 {"pitch_deg", std::asin(std::clamp(failure.view[2], -1.0, 1.0)) / kDegree}});
   return value;
 }
 

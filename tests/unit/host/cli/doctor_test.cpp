@@ -83,7 +83,11 @@ TEST_F(DoctorTest, PosesOfAnotherScaleThanDepthAreNamedByAdviseToo) {
   EXPECT_EQ(nlohmann::json::parse(warned.out)["contradictions"].size(), 1u);
   EXPECT_THAT(doctor(at("walk")).out, HasSubstr("lie where poses and depth say"));
   const Answer sound = runCommand(advise + at("walk"));
-  EXPECT_TRUE(nlohmann::json::parse(sound.out)["contradictions"].empty()) << sound.err;
+  const auto advice = nlohmann::json::parse(sound.out);
+  EXPECT_TRUE(advice["contradictions"].empty()) << sound.err;
+  for (const auto &recall : advice["recall"]) EXPECT_TRUE(recall.contains("median_m")) << recall;
+  for (const auto &failure : advice["failures"])
+    EXPECT_TRUE(failure.contains("yaw_deg") && failure.contains("pitch_deg")) << failure;
 }
 
 TEST_F(DoctorTest, PixelsWithoutARayAreNamed) {
