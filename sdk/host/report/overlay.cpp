@@ -17,10 +17,14 @@ constexpr double kLeastShrink = 0.75;  // of letters, before a second row
 const cv::Scalar kGrey(190, 190, 190), kOrange(40, 150, 255), kGreen(90, 220, 60), kDark(38, 30, 27),
     kWhite(245, 245, 245);
 
+bool isJudged(const Run &run) {
+  return std::any_of(run.frames.begin(), run.frames.end(),
+                     [](const FrameRecord &frame) { return frame.localized && frame.has_truth; });
+}
+
 // Places in run.frames of the localized frames, best first.
 std::vector<size_t> ranked(const Run &run) {
-  const bool truth = std::any_of(run.frames.begin(), run.frames.end(),
-                                 [](const FrameRecord &frame) { return frame.localized && frame.has_truth; });
+  const bool truth = isJudged(run);
   std::vector<size_t> order;
   for (size_t i = 0; i < run.frames.size(); ++i) {
     if (run.frames[i].localized && (!truth || run.frames[i].has_truth)) order.push_back(i);
@@ -128,9 +132,14 @@ void drawLegend(cv::Mat *picture, const FrameRecord &frame) {
 std::vector<Highlight> chooseHighlights(const Run &run) {
   std::vector<Highlight> chosen;
   const std::vector<size_t> order = ranked(run);
-  if (!order.empty()) chosen.push_back({"best", "Best pose", order.front()});
-  if (order.size() > 2) chosen.push_back({"median", "Median pose", order[order.size() / 2]});
-  if (order.size() > 1) chosen.push_back({"worst", "Worst accepted pose", order.back()});
+  const bool truth = isJudged(run);
+  const auto title = [truth](const char *judged, const char *other) { return truth ? judged : other; };
+  if (!order.empty()) chosen.push_back({"best", title("Best pose", "Most matches agree"), order.front()});
+  if (order.size() > 2)
+    chosen.push_back(
+        {"median", title("Median pose", "As many matches agree as in the median"), order[order.size() / 2]});
+  if (order.size() > 1)
+    chosen.push_back({"worst", title("Worst accepted pose", "Fewest matches agree"), order.back()});
   // Wrong ones that are not among these.
   constexpr size_t kMostWrong = 3;
   const auto is_shown = [&chosen](size_t i) {

@@ -44,6 +44,8 @@ TEST(Highlights, GoByInliersWithoutTruth) {
   for (FrameRecord &frame : run.frames) frame.has_truth = false;
   run.frames[1].inliers = 90;
   EXPECT_EQ(names(run), (std::vector<std::string>{"best:2", "worst:1"}));
+  EXPECT_EQ(chooseHighlights(run)[0].title, "Most matches agree");
+  EXPECT_EQ(chooseHighlights(run)[1].title, "Fewest matches agree");
 }
 
 TEST(Highlights, OfASingleFrameShowItOnce) {
