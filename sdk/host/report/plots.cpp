@@ -158,13 +158,12 @@ std::string pathScript(const Path &path, const Extent &extent) {
   script += "set size ratio -1\n" + pathLabels(path.view) + pathTics(extent);
   script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
   script += "set key at screen 0.5, screen 0.99 center top horizontal reverse Left samplen 2\nset tmargin 3.5\n";
-  if (truth) script += kErrorColors;
+  const bool coloured = !path.estimate.empty();
+  if (coloured) script += kErrorColors;
   const std::string dots = " with points pointtype 7 pointsize 0.7 ";
   script += "plot ";
-  if (truth)
-    script +=
-        "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', $estimate using 1:2:3" +
-        dots + "linecolor palette title 'estimate'";
+  if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth'";
+  if (coloured) script += ", $estimate using 1:2:3" + dots + "linecolor palette title 'estimate'";
   if (!path.unjudged.empty())
     script += (truth ? ", " : "") + std::string("$unjudged using 1:2") + dots + color(kBlueHex) +
               (truth ? " title 'truth not known'" : " title 'estimate'");
@@ -258,10 +257,13 @@ Drawing pathFromTop(const Run &run) {
     of = " in " + run.maps[mapOfMostAnswers(run)].path;
     if (run.base == "map") frame = "that map's own frame";
   }
-  std::string caption = "Every dot is one answer" + of + ", " +
-                        (path.truth.empty() ? "in " + frame + "."
-                                            : "coloured by how far it is from the true place (grey line" +
-                                                  std::string(run.aligned_frames ? ", aligned)." : ")."));
+  const bool is_answered = !path.estimate.empty() || !path.unjudged.empty();
+  std::string caption = !is_answered
+                            ? "The grey line is where the camera was; not one frame was localized."
+                            : "Every dot is one answer" + of + ", " +
+                                  (path.truth.empty() ? "in " + frame + "."
+                                                      : "coloured by how far it is from the true place (grey line" +
+                                                            std::string(run.aligned_frames ? ", aligned)." : ")."));
   if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
   if (map != SPHC_MAP_NONE) caption += " Answers in other maps have frames of their own and are not drawn.";
   if (path.centres.size() > 1)
@@ -306,18 +308,27 @@ Drawing timeline(const Run &run) {
     else
       lost.push_back({x, static_cast<double>(frame.inliers), 0});
   }
+  const auto [first, last] = std::minmax_element(matches.begin(), matches.end());
+  const double left = (*first)[0], right = (*last)[0];
+  const bool is_long = run.frames.size() > 300;
   std::string script = kPlotLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
   // All digits: a camera's own count may be in the millions, where gnuplot would write powers of ten.
   script +=
       "set format x '%.12g'\nset yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\n"
       "set key outside top center horizontal reverse Left samplen 2\n";
+  script += range("xrange", left - 0.5, right + 0.5);
+  if (right - left < 20) script += "set xtics 1\n";
   script += "set style fill transparent solid 0.15 noborder\n";
-  script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmberHex) +
-            " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreenHex) +
-            " title 'agree with the pose'";
+  script += std::string("plot $matches using 1:2 with ") +
+            (run.frames.size() < 30 ? "linespoints pointtype 7 pointsize 0.6" : "lines") + " linewidth 1.5 " +
+            color(kAmberHex) + " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " +
+            color(kGreenHex) + " title 'agree with the pose'";
+  // Crosses of many frames would hide the rest; they get a strip along the axis.
   if (!lost.empty())
-    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRedHex) +
-              " title 'not localized'";
+    script += std::string(", $lost using 1:") +
+              (is_long ? "(0) with points pointtype 5 pointsize 0.4 "
+                       : "2 with points pointtype 2 pointsize 1 linewidth 1.5 ") +
+              color(kRedHex) + " title 'not localized'";
   return {"timeline",
           "Frame by frame",
           "Matches with fake points are among the amber ones; the green ones agree with one pose. Few green ones "

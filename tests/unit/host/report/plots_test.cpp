@@ -9,6 +9,7 @@ namespace sphc::host {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 host::Run runOff(const std::vector<double> &errors_m) {
   host::Run run;
@@ -70,6 +71,30 @@ TEST(PathFromTop, SaysWhereItsAxesAreNotThoseOfThePoses) {
     sphc_rigid_compose(&tilt, &frame.truth_base_from_camera, &frame.truth_base_from_camera);
   EXPECT_THAT(pathFromTop(run).caption, HasSubstr("these are not the axes of the poses."));
   EXPECT_THAT(pathFromTop(run).script, HasSubstr("set xlabel 'metres'"));
+}
+
+TEST(PathFromTop, WithoutAnAnswerSpeaksOfNoDots) {
+  host::Run run = runOff({});
+  run.frames = {lostFrame(1), lostFrame(2)};
+  const Drawing path = pathFromTop(run);
+  EXPECT_THAT(path.caption, HasSubstr("The grey line is where the camera was; not one frame was localized."));
+  EXPECT_THAT(path.script, Not(HasSubstr("$estimate using")));
+  EXPECT_THAT(path.script, Not(HasSubstr("cm off")));
+}
+
+// A single point has no line, and gnuplot no range of it.
+TEST(Timeline, OfOneFrameShowsIt) {
+  const std::string script = timeline(runOff({0.01})).script;
+  EXPECT_THAT(script, HasSubstr("$matches using 1:2 with linespoints"));
+  EXPECT_THAT(script, HasSubstr("set xrange [-0.500000:0.500000]\nset xtics 1\n"));
+}
+
+TEST(Timeline, OfManyFramesLostOnesAreAStrip) {
+  host::Run run = runOff({0.01, 0.01});
+  run.frames.push_back(lostFrame(2));
+  EXPECT_THAT(timeline(run).script, HasSubstr("$lost using 1:2 with points"));
+  for (uint32_t i = 3; i < 400; ++i) run.frames.push_back(lostFrame(i));
+  EXPECT_THAT(timeline(run).script, HasSubstr("$lost using 1:(0) with points"));
 }
 
 // The end of the whisker is the second number.
