@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/base/terminal_text.h"
 #include "host/report/reliability.h"
 #include "host/report/truth_words.h"
 
@@ -108,13 +109,13 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
 std::string tableText(const std::vector<Row> &rows) {
   size_t name_width = 0, value_width = 0;
   for (const Row &row : rows) {
-    name_width = std::max(name_width, row.name.size());
-    value_width = std::max(value_width, row.value.size());
+    name_width = std::max(name_width, columnsOf(row.name));
+    value_width = std::max(value_width, columnsOf(row.value));
   }
   std::string text;
   for (const Row &row : rows) {
-    std::string line = "  " + row.name + std::string(name_width - row.name.size() + 2, ' ') +
-                       std::string(value_width - row.value.size(), ' ') + row.value;
+    std::string line = "  " + row.name + std::string(name_width - columnsOf(row.name) + 2, ' ') +
+                       std::string(value_width - columnsOf(row.value), ' ') + row.value;
     if (!row.note.empty()) line += "   " + row.note;
     text += line + "\n";
   }

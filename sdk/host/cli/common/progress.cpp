@@ -5,10 +5,13 @@
 #include <cstdio>
 #include <utility>
 
+#include "host/base/terminal_text.h"
+
 namespace sphc::host {
 namespace {
 
 constexpr uint32_t kCells = 28;
+constexpr size_t kMostShown = 150;
 constexpr std::chrono::milliseconds kRedraw(80);
 
 std::string clockText(double seconds) {
@@ -39,7 +42,9 @@ void ProgressBar::show(uint32_t done, uint32_t total) {
   for (uint32_t i = 0; i < kCells; ++i) bar += i * uint64_t{total} < uint64_t{done} * kCells ? "█" : "░";
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string left = done > 0 ? clockText(elapsed * (total - done) / done) + " left" : "";
-  std::fprintf(stderr, "\r\033[K%s %s %u/%u  %s", what_.c_str(), bar.c_str(), done, total, left.c_str());
+  const std::string line =
+      what_ + " " + bar + " " + std::to_string(done) + "/" + std::to_string(total) + "  " + left;
+  std::fprintf(stderr, "\r\033[K%s", fitting(line, shownColumns(kMostShown)).c_str());  // wrapped, it would stay
   std::fflush(stderr);
 }
 

@@ -50,6 +50,12 @@ TEST_F(StatusLineTest, FitsTheTerminal) {
   EXPECT_THAT(shown(std::string(39, 'a') + std::string(60, 'b')), EndsWith("\x1b[K" + std::string(39, 'a')));
 }
 
+TEST_F(StatusLineTest, CutsNoCharacterInTwo) {
+  if (!is_ready_) GTEST_SKIP() << "no terminals here";
+  setColumns(5);
+  EXPECT_THAT(shown("Hügelland"), EndsWith("\x1b[KHüge"));
+}
+
 TEST_F(StatusLineTest, OfUnknownWidthStillShowsTheLine) {
   if (!is_ready_) GTEST_SKIP() << "no terminals here";
   setColumns(0);

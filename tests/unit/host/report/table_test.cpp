@@ -80,6 +80,7 @@ TEST(Table, DoesNotSpeakOfPosesThatAreNotThere) {
 TEST(Table, AlignsItsColumns) {
   const std::string text = tableText({{"a", "1", "x"}, {"long name", "1000", ""}});
   EXPECT_EQ(text, "  a             1   x\n  long name  1000\n");
+  EXPECT_EQ(tableText({{"Küche", "1", "x"}, {"Flur", "1000", ""}}), "  Küche     1   x\n  Flur   1000\n");
 }
 
 TEST(HumanBytes, PicksAUnit) {
