@@ -213,6 +213,7 @@ Result writeRaw(RecordingReader *reader, const std::string &file, const Console 
 Result write7Scenes(RecordingReader *reader, const std::string &folder, const Console &console) {
   const Interrupt interrupt;  // from before there is a folder
   NewRecording recording(folder, NewRecording::IfCut::kRemove);
+  recording.makeFolder();
   recording::SevenScenesWriter writer(recording.part(), reader->calibration());
   uint32_t next = 0;
   const Result result =

@@ -191,6 +191,7 @@ int run(const RecordOptions &options, const Console &console) {
   const Interrupt interrupt;                 // from before there is a file
   NewRecording recording(options.out, NewRecording::IfCut::kRemove);
   Recorder recorder = openRecorder(recording.part(), options, calibration);
+  recording.isMade();
   RecordTally tally;
   sphc_recorder_statistics statistics = {};
   try {

@@ -244,6 +244,8 @@ void FileUse::checkRecording(const Output &output) const {
     refuse(output.option, path, "is there already, and recordings are never replaced; choose another name");
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, error)))
     refuse(output.option, path, "is a link to nothing; choose another name");
+  if (NewRecording::isBeingWritten(part))
+    refuse(output.option, part, "is there, and another program is writing it; let it end, or choose another name");
   if (fs::is_directory(fs::symlink_status(part, error)))
     refuse(output.option, part, "is there, a folder that was not finished; remove it");
   if (fs::exists(fs::symlink_status(part, error)))

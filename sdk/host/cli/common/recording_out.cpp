@@ -17,6 +17,7 @@ class FileOut : public RecordingOut {
     orThrow("cannot start the recording", [&](sphc_message *message) {
       return sphc_recorder_open(recording_.part().c_str(), &calibration, &config, &recorder_, message);
     });
+    recording_.isMade();
   }
   ~FileOut() override { sphc_recorder_abandon(&recorder_); }
 
@@ -53,7 +54,7 @@ class FileOut : public RecordingOut {
 class FolderOut : public RecordingOut {
  public:
   FolderOut(const std::string &path, const sphc_rig &calibration)
-      : recording_(path, NewRecording::IfCut::kRemove), writer_(recording_.part(), calibration) {}
+      : recording_(path, NewRecording::IfCut::kRemove), writer_(madeFolder(&recording_), calibration) {}
 
   void add(const sphc_capture &capture) override { writer_.add(capture.stream, capture.time_ns, capture.image); }
   void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
@@ -67,6 +68,11 @@ class FolderOut : public RecordingOut {
   }
 
  private:
+  static const std::string &madeFolder(NewRecording *recording) {
+    recording->makeFolder();
+    return recording->part();
+  }
+
   NewRecording recording_;
   recording::TumWriter writer_;
 };

@@ -387,6 +387,28 @@ TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
   }
 }
 
+// All are begun before any of them has made its file.
+TEST_F(FilesTest, CommandsOfOneNameLoseNoRecording) {
+  for (const std::string to : {"rivals.mcap", "rivals"}) {
+    const std::string one = SPHC_COMMAND " convert " + at("walk") + " " + at(to) + " & ";
+    const Answer answer = runProgram("sh -c", "'" + one + one + one + one + "wait'");
+    EXPECT_TRUE(fs::exists(at(to))) << answer.err;
+    EXPECT_FALSE(fs::exists(at(to + ".part"))) << answer.err;
+  }
+}
+
+TEST_F(FilesTest, ARecordingThatIsBeingWrittenIsNamedAsThat) {
+  const std::string out = at("busy.mcap");
+  const Answer answer =
+      runProgram("sh -c", "'" SPHC_COMMAND " record --device simulated: --out " + out +
+                              " & child=$!; while kill -0 $child && ! [ -s " + out +
+                              ".part ]; do sleep 0.1; done; " SPHC_COMMAND " record --device simulated: --out " +
+                              out + "; kill -TERM $child; wait $child'");
+  EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("busy.mcap.part is there, and another program is writing it"));
+  EXPECT_TRUE(fs::exists(out));
+}
+
 // What holds no image is of no use, and would be in the way of the next try.
 TEST_F(FilesTest, ARecordingThatFailsAtItsFirstImageLeavesNothing) {
   sphc_rig rig = recording::readCalibration(at("walk/calibration.json"));

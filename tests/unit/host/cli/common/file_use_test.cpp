@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "host/base/usage_error.h"
+#include "host/cli/common/new_recording.h"
 #include "tests/support/nobody.h"
 #include "tests/support/temp_folder.h"
 
@@ -241,6 +242,9 @@ TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
   EXPECT_THAT(refused("cut.mcap"), HasSubstr("cut off"));
   fs::create_directory(folder_ / "copied.part");
   EXPECT_THAT(refused("copied"), HasSubstr("a folder that was not finished; remove it"));
+  NewRecording other(folder_ / "other", NewRecording::IfCut::kRemove);
+  other.makeFolder();
+  EXPECT_THAT(refused("other"), HasSubstr("another program is writing it"));
   fs::create_symlink("nowhere", folder_ / "link.mcap");
   EXPECT_THAT(refused("link.mcap"), HasSubstr("a link to nothing"));
 }

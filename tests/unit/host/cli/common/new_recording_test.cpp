@@ -18,6 +18,7 @@ TEST(NewRecording, HasItsNameOnceItIsWhole) {
   NewRecording file(folder / "a.mcap", NewRecording::IfCut::kRemove);
   EXPECT_EQ(file.part(), folder / "a.mcap.part");
   std::ofstream(file.part()) << "all";
+  file.isMade();
   EXPECT_FALSE(fs::exists(folder / "a.mcap"));
   file.finish();
   EXPECT_TRUE(fs::exists(folder / "a.mcap"));
@@ -26,7 +27,7 @@ TEST(NewRecording, HasItsNameOnceItIsWhole) {
   fs::create_directory(folder / "walk");  // empty: what people make beforehand
   NewRecording walk((folder / "walk") + "/", NewRecording::IfCut::kRemove);
   EXPECT_EQ(walk.part(), folder / "walk.part");
-  fs::create_directory(walk.part());
+  walk.makeFolder();
   std::ofstream(walk.part() + "/rgb.txt") << "all";
   walk.finish();
   EXPECT_TRUE(fs::exists(folder / "walk/rgb.txt"));
@@ -34,25 +35,41 @@ TEST(NewRecording, HasItsNameOnceItIsWhole) {
 
 TEST(NewRecording, WhatWasCutGoesOrStays) {
   const test::TempFolder folder;
-  for (const auto if_cut : {NewRecording::IfCut::kRemove, NewRecording::IfCut::kKeep}) {
-    NewRecording walk(folder / "walk", if_cut);
-    fs::create_directory(walk.part());
-    std::ofstream(walk.part() + "/rgb.txt") << "half";
+  const std::string image = folder / "walk.part/rgb.txt";
+  for (const bool is_kept : {false, true}) {
+    {
+      NewRecording walk(folder / "walk", NewRecording::IfCut::kRemove);
+      walk.makeFolder();
+      std::ofstream(image) << "half";
+      if (is_kept) walk.keepIfCut();
+    }
+    EXPECT_EQ(fs::exists(image), is_kept);
+    EXPECT_EQ(fs::exists(folder / "walk.part"), is_kept);
   }
-  EXPECT_TRUE(fs::exists(folder / "walk.part/rgb.txt"));
-  {
-    NewRecording walk(folder / "walk", NewRecording::IfCut::kRemove);
-    walk.keepIfCut();
+}
+
+TEST(NewRecording, APartThatAnotherMadeStays) {
+  const test::TempFolder folder;
+  for (const char *name : {"a.mcap", "walk"}) {
+    NewRecording first(folder / name, NewRecording::IfCut::kRemove);
+    EXPECT_FALSE(NewRecording::isBeingWritten(first.part())) << "it is not there";
+    first.makeFolder();
+    {
+      NewRecording second(folder / name, NewRecording::IfCut::kRemove);
+      EXPECT_THROW(second.makeFolder(), std::runtime_error);
+    }
+    EXPECT_TRUE(fs::exists(first.part()));
+    EXPECT_TRUE(NewRecording::isBeingWritten(first.part()));
+    first.keepIfCut();
   }
-  EXPECT_TRUE(fs::exists(folder / "walk.part/rgb.txt"));
-  { const NewRecording walk(folder / "walk", NewRecording::IfCut::kRemove); }
-  EXPECT_FALSE(fs::exists(folder / "walk.part"));
+  EXPECT_FALSE(NewRecording::isBeingWritten(folder / "walk.part")) << "it was cut";
 }
 
 TEST(NewRecording, TakesNobodysPlace) {
   const test::TempFolder folder;
   NewRecording file(folder / "a.mcap", NewRecording::IfCut::kKeep);
   std::ofstream(file.part()) << "new";
+  file.isMade();
   std::ofstream(folder / "a.mcap") << "came meanwhile";
   EXPECT_THROW(file.finish(), std::runtime_error);
   EXPECT_EQ(fs::file_size(folder / "a.mcap"), 14u);
