@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -167,6 +168,7 @@ void holdStandardFiles() {
 
 int runProgram(const Program &program, int argc, char **argv) {
   holdStandardFiles();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on sizes of files is then a write that fails, with words
   std::set_new_handler(noteThatMemoryRanOut);
   std::set_terminate(onTerminate);
   catchCrashes();

@@ -421,6 +421,20 @@ TEST_F(FilesTest, ARecordingThatFailsAtItsFirstImageLeavesNothing) {
   EXPECT_FALSE(fs::exists(at("wider.mcap")) || fs::exists(at("wider.mcap.part")));
 }
 
+// As batch systems set one.
+TEST_F(FilesTest, ALimitOnSizesOfFilesIsAFailureThatLeavesNothing) {
+  const test::TempFolder folder;
+  for (const std::string &command :
+       {"build -r " + at("walk") + " -m " + (folder / "m.sphc") + " --ledger " + at("limited.ledger"),
+        "convert " + at("walk") + " " + (folder / "c.mcap"), "convert " + at("walk") + " " + (folder / "c.raw"),
+        "convert " + at("walk") + " " + (folder / "c")}) {
+    const Answer answer = runProgram("sh -c", "'ulimit -f 150; exec " SPHC_COMMAND " " + command + "'");
+    EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+    EXPECT_THAT(answer.err, testing::AnyOf(HasSubstr("File too large"), HasSubstr("is the disk full"))) << command;
+    EXPECT_TRUE(fs::is_empty(folder.path())) << command;
+  }
+}
+
 // The signal comes once something is recorded; how long that takes does not matter.
 TEST_F(FilesTest, APoliteKillEndsARecordingAsCtrlCDoes) {
   for (const std::string signal : {"TERM", "HUP"}) {
