@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 
 #include "host/base/checked_call.h"
 #include "host/base/counted.h"
@@ -192,6 +193,7 @@ int run(const RecordOptions &options, const Console &console) {
   NewRecording recording(options.out, NewRecording::IfCut::kRemove);
   Recorder recorder = openRecorder(recording.part(), options, calibration);
   recording.isMade();
+  const uintmax_t bytes_without_images = std::filesystem::file_size(recording.part());
   RecordTally tally;
   sphc_recorder_statistics statistics = {};
   try {
@@ -202,10 +204,14 @@ int run(const RecordOptions &options, const Console &console) {
     recording.finish();
   } catch (const std::exception &error) {
     if (tally.isEmpty()) throw;  // a file without images would be in the way of the next try
-    recording.keepIfCut();
+    recorder.reset();            // writes what it can
+    std::error_code unknown;
+    const bool has_images = std::filesystem::file_size(recording.part(), unknown) > bytes_without_images;
+    if (has_images) recording.keepIfCut();
     const bool is_memory = dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
     throw std::runtime_error((is_memory ? "there was not enough memory" : std::string(error.what())) +
-                             "; what was recorded until then is in " + recording.part());
+                             (has_images ? "; what was recorded until then is in " + recording.part()
+                                         : "; no image was written, so no file is left"));
   }
   rig.endPairs();
   sayResult(options, tally, statistics, rig, guide.get(), console);

@@ -421,6 +421,18 @@ TEST_F(FilesTest, ARecordingThatFailsAtItsFirstImageLeavesNothing) {
   EXPECT_FALSE(fs::exists(at("wider.mcap")) || fs::exists(at("wider.mcap.part")));
 }
 
+// The first images do not fit in.
+TEST_F(FilesTest, ARecordingWithoutRoomForAnImageLeavesNothing) {
+  const std::string out = at("no_room.mcap");
+  const Answer answer =
+      runProgram("sh -c", "'ulimit -f 300; exec " SPHC_COMMAND " record --device replay:" + at("walk") + " --out " +
+                              out + "'");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("no image was written, so no file is left"), Not(HasSubstr("until then"))));
+  EXPECT_FALSE(fs::exists(out) || fs::exists(out + ".part"));
+}
+
 // As batch systems set one.
 TEST_F(FilesTest, ALimitOnSizesOfFilesIsAFailureThatLeavesNothing) {
   const test::TempFolder folder;
