@@ -1,10 +1,12 @@
 // spherecloud doctor: what is wrong with these cameras?
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/calibration/nearest_camera.h"
 #include "host/cli/commands.h"
@@ -140,7 +142,9 @@ class CaptureChecks {
   bool fit_ = false;
 };
 
-void watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChecks *checks) {
+enum class Seen { kAll, kUntilInterrupted, kUntilLate };
+
+Seen watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChecks *checks) {
   StatusLine line;
   const Interrupt interrupt;
   const auto until = std::chrono::steady_clock::now() + kPatience;
@@ -158,6 +162,21 @@ void watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChe
     rig->release(pair);
     line.show("looking: " + std::to_string(checks->pairs()) + " of " + std::to_string(options.frames));
   }
+  if (checks->pairs() >= options.frames) return Seen::kAll;
+  if (interrupt.came()) return Seen::kUntilInterrupted;
+  return !is_recording && is_over() ? Seen::kUntilLate : Seen::kAll;
+}
+
+// Where fewer pairs were seen than were asked for, the others may be worse.
+std::optional<Finding> findingOfHowMany(Seen seen, size_t pairs, uint32_t wanted) {
+  const std::string of_all = std::to_string(pairs) + " of " + counted(wanted, "pair");
+  if (seen == Seen::kUntilInterrupted)
+    return Finding{Grade::kWrong, "looking",
+                   "interrupted after " + of_all + "; let it end, or ask for fewer (--frames)"};
+  if (seen == Seen::kUntilLate && pairs > 0)
+    return Finding{Grade::kDoubtful, "looking",
+                   of_all + " came in " + std::to_string(kPatience.count()) + " s, and the findings are of these"};
+  return std::nullopt;
 }
 
 Findings lookAt(DoctorOptions options, const Console &console) {
@@ -170,8 +189,11 @@ Findings lookAt(DoctorOptions options, const Console &console) {
   if (recording)
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
   CaptureChecks checks(calibration, recording != nullptr);
-  watch(options, recording != nullptr, &rig, &checks);
+  const Seen seen = watch(options, recording != nullptr, &rig, &checks);
+  const std::optional<Finding> how_many = findingOfHowMany(seen, checks.pairs(), options.frames);
+  if (how_many && checks.captures() == 0) return {*how_many};
   Findings findings = findingsOfField(calibration);
+  if (how_many) findings.push_back(*how_many);
   append(of_captures.findings(), &findings);
   append(checks.ofStreams(), &findings);
   const std::string troubles = rig.troubles();
@@ -210,7 +232,7 @@ const char kDoctorExample[] =
     "  spherecloud doctor                                              this machine\n"
     "  spherecloud doctor --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json\n"
     "  spherecloud doctor --device replay:walk.mcap                    a recording\n"
-    "Show the cameras a room with things in it.  Exit status 1: something is wrong.";
+    "Show the cameras a room with things in it.  Exit status 1: something is wrong, or it was interrupted.";
 
 }  // namespace
 

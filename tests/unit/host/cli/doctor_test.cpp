@@ -171,6 +171,17 @@ TEST_F(DoctorTest, TimesInMillisecondsAreNamedAtOnce) {
   EXPECT_THAT(slow.out, HasSubstr("are the times in milliseconds?"));
 }
 
+// The signal comes once it is heard.
+TEST_F(DoctorTest, AnInterruptedOneIsNoSuccess) {
+  const Answer answer = runProgram(
+      "sh -c",
+      "'" SPHC_COMMAND
+      " doctor --device simulated: --frames 10000 & child=$!; while kill -0 $child && ! grep -q "
+      "\"SigCgt:.*[4567cdef]...$\" /proc/$child/status; do sleep 0.1; done; kill -TERM $child; wait $child'");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("interrupted after "), HasSubstr(" of 10000 pairs")));
+}
+
 TEST_F(DoctorTest, SwappedImagesAreNotToBeCopiedAgain) {
   const std::string walk = copyOfWalk("swapped");
   fs::rename(walk + "/rgb.txt", walk + "/other.txt");
