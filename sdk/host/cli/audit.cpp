@@ -333,7 +333,10 @@ Command auditCommand(CLI::App *root) {
   CLI::Option *recording = app->get_option("--recording")->required(false);
   for (const char *name : {"--calibration", "--first", "--last", "--step", "--poses-from"})
     app->get_option(name)->needs(recording);
-  app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
+  app->add_option("--release", options->releases, "Another map of the place that was published; repeat")
+      ->expected(1)
+      ->take_all()
+      ->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")
       ->capture_default_str()
       ->transform(wholeFrom(1, 100000))
@@ -348,7 +351,10 @@ Command auditCommand(CLI::App *root) {
   auto *last = app->add_option("--photos-last", options->photos.last, "Last of them")
                    ->transform(wholeFrom(0, UINT32_MAX))
                    ->type_name("N");
-  app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
+  app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER; repeat")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME=X");
   app->add_option("--allow-unmeasured", options->allow_unmeasured,
                   "What may stay unmeasured: a figure, an attack, or truth, recording, networks, releases; repeat")
       ->expected(1)

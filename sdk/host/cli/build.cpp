@@ -339,7 +339,10 @@ void addReleaseOptions(CLI::App *app, BuildOptions *options) {
   app->add_option("--key", options->key, "Secret key for a new ledger (64 hexadecimal digits) [drawn]")
       ->type_name("FILE")
       ->group(group);
-  app->add_option("--against", options->against, "Ledgers of others whose places must not be published again")
+  app->add_option("--against", options->against,
+                  "Ledger of others whose places must not be published again; repeat")
+      ->expected(1)
+      ->take_all()
       ->type_name("FILE")
       ->group(group);
   app->add_flag("--new-place", options->new_place, "No update: a new map, of what was never published")

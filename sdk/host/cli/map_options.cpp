@@ -61,7 +61,8 @@ void addPoseOptions(CLI::App *app, MapOptions *options) {
           ->group(group);
   app->add_option("--poses-from", options->told,
                   "File of poses in TUM format, in place of the recording's; once for each recording")
-      ->allow_extra_args(false)
+      ->expected(1)
+      ->take_all()
       ->type_name("FILE")
       ->group(group);
   app->add_option("--pose-sigma", options->trust.sigma_m, "Approximate: how far places are off, metres, 1 sigma")
@@ -119,7 +120,8 @@ void addMapOptions(CLI::App *app, MapOptions *options) {
       ->type_name("FILE");
   app->add_option("--trajectory", options->trajectories,
                   "Poses of all frames in TUM format; once for each recording, in the same order")
-      ->allow_extra_args(false)
+      ->expected(1)
+      ->take_all()
       ->type_name("FILE");
   app->add_option("--refine-calibration", options->refined_calibration,
                   "Adjust the calibration too, write it there and map with it; about three times as long")

@@ -58,7 +58,8 @@ void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, R
          "Recording: a folder, a .mcap or .raw file, or another program's; once for each of several, the oldest "
          "first")
       ->required()
-      ->allow_extra_args(false)
+      ->expected(1)
+      ->take_all()
       ->type_name("PATH")
       ->group(kGroup);
   addFrameOptions(app, of_each);

@@ -106,6 +106,23 @@ TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
             kExitAuditFailed);
 }
 
+// An option takes one value, so that a map behind it is the map.
+TEST(CommandLine, OptionsThatAreRepeatedMayStandBeforeTheMap) {
+  const test::TempFolder folder;
+  const std::string map = folder / "m.sphc";
+  writeTinyMap(map, 200);
+  for (const char *option : {"--release none.sphc", "--limit density.at_centre=0", "--allow-unmeasured truth"})
+    EXPECT_THAT(runCommand(std::string("audit --quick --only density ") + option + " " + map).err,
+                testing::Not(HasSubstr("map is required")))
+        << option;
+  for (const std::string command : {"audit --release", "audit --limit", "build --against", "map --recording"}) {
+    const std::string help = runCommand(command.substr(0, command.find(' ')) + " --help").out;
+    const size_t at = help.find(command.substr(command.find(' ') + 1) + " ");
+    ASSERT_NE(at, std::string::npos) << command;
+    EXPECT_THAT(help.substr(at, help.find('\n', at) - at), testing::Not(HasSubstr("..."))) << command;
+  }
+}
+
 // A value of 0.558 is no "BROKEN, at most 0.56".
 TEST(CommandLine, AnAuditTellsItsLimitsAsPreciselyAsItsFigures) {
   const test::TempFolder folder;
