@@ -35,7 +35,9 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
 void checkRigOptions(const RigOptions &options) {
   const bool two = !options.color.empty() && !options.depth.empty();
   const bool any_of_two = !options.color.empty() || !options.depth.empty();
-  if (options.both.empty() ? !two : any_of_two)
+  if (!options.both.empty() && any_of_two)
+    throw UsageError("--device gives colour and depth; leave it out, or --color and --depth");
+  if (options.both.empty() && !two)
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
 }
 

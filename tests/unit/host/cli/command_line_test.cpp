@@ -138,6 +138,8 @@ TEST(CommandLine, UsageNamesTheSubcommand) {
 TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
   const std::pair<const char *, const char *> mistakes[] = {
       {"conquer", "there is no subcommand conquer"},
+      {"live --device x: --color y: --map m",
+       "--device gives colour and depth; leave it out, or --color and --depth"},
       {"build --model p --last 3 --map m", "--first, --last and --step choose frames of a --recording"},
       {"build --model p --recording r --map m", "--recording, --colmap and --model exclude each other"},
       {"build --map m", "--recording, --colmap or --model is required"},
