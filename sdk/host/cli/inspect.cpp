@@ -1,7 +1,9 @@
 // spherecloud inspect: a map file in detail.
 #include <memory>
+#include <stdexcept>
 
 #include "host/base/counted.h"
+#include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -73,16 +75,30 @@ std::string picturePath(const InspectOptions &options) {
   return options.picture.empty() ? options.map + ".directions.png" : options.picture;
 }
 
-int inspect(const InspectOptions &options, const Console &console) {
+// One that nobody asked for is left out where it cannot be.
+std::string checkedPicture(const InspectOptions &options, const Console &console) {
+  const std::string path = picturePath(options);
   FileUse files(options.force);
   files.reads("the map", options.map);
   readsTrust(options.trust, &files);
-  files.writes("--picture", picturePath(options), holds(kPictureMark));
-  files.check();
+  files.writes("--picture", path, holds(kPictureMark));
+  try {
+    files.check();
+  } catch (const UsageError &) {
+    throw;
+  } catch (const std::runtime_error &error) {
+    if (!options.picture.empty()) throw;
+    console.warn(std::string("note: no picture is made. ") + error.what());
+    return "";
+  }
+  return path;
+}
+
+int inspect(const InspectOptions &options, const Console &console) {
+  const std::string path = checkedPicture(options, console);
   const MapFile file = openMapFile(options.map, trustOf(options.trust));
   const MapFacts facts = mapFacts(file, options.map);
   const MapAnatomy anatomy = dissect(file, facts);
-  const std::string path = picturePath(options);
   double peak = 0;
   if (!path.empty()) writePicture(path, drawDirections(facts.directions, &peak));  // before words, as in localize
   tell(facts, anatomy, console);

@@ -254,6 +254,13 @@ TEST_F(FilesTest, PicturesReplacePicturesAlone) {
   for (int run = 0; run < 2; ++run) EXPECT_EQ(runCommand(inspect).exit_code, kExitDone);
   expectKept(at("room.sphc"), inspect + " --picture " + at("room.sphc"), kExitUsage, "reads");
   put("holiday.png", "a picture of somebody");
+  fs::copy(at("room.sphc"), at("seen.sphc"));
+  fs::copy(at("holiday.png"), at("seen.sphc.directions.png"));
+  const Answer unasked = runCommand("inspect " + at("seen.sphc"));
+  EXPECT_EQ(unasked.exit_code, kExitDone);
+  EXPECT_THAT(unasked.err, HasSubstr("no picture is made"));
+  EXPECT_THAT(unasked.out, AllOf(HasSubstr("nearest neighbour"), Not(HasSubstr("Picture"))));
+  EXPECT_EQ(fileText(at("seen.sphc.directions.png")), fileText(at("holiday.png")));
   expectKept(at("holiday.png"), inspect + " --picture " + at("holiday.png"), kExitFailure, "--force");
   expectKept(at("holiday.png"), "advise -r " + at("walk") + " --picture " + at("holiday.png"), kExitFailure,
              "--force");
