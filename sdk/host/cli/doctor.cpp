@@ -92,6 +92,12 @@ Findings findingsOfField(const sphc_rig &calibration) {
   return findings;
 }
 
+std::vector<int64_t> timesOf(const std::vector<recording::RecordedImage> &images) {
+  std::vector<int64_t> times_ns;
+  for (const recording::RecordedImage &image : images) times_ns.push_back(image.time_ns);
+  return times_ns;
+}
+
 // What comes of the cameras, and the pairs of it, each looked at as it comes.
 class CaptureChecks {
  public:
@@ -118,6 +124,12 @@ class CaptureChecks {
   size_t pairs() const { return apart_ms_.size(); }
   // Whether there are pairs, of the calibration's sizes.
   bool fit() const { return fit_; }
+
+  // Of a recording: the images that there are, whether they can be read or not.
+  void expect(const recording::Recording &recording) {
+    color_.expect(timesOf(recording.color));
+    depth_.expect(timesOf(recording.depth));
+  }
 
   Findings ofStreams() const {
     Findings findings = color_.findings();
@@ -189,6 +201,7 @@ Findings lookAt(DoctorOptions options, const Console &console) {
   if (recording)
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
   CaptureChecks checks(calibration, recording != nullptr);
+  if (recording) checks.expect(recording->recording());
   const Seen seen = watch(options, recording != nullptr, &rig, &checks);
   const std::optional<Finding> how_many = findingOfHowMany(seen, checks.pairs(), options.frames);
   if (how_many && checks.captures() == 0) return {*how_many};

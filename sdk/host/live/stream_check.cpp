@@ -123,12 +123,19 @@ std::optional<Finding> StreamCheck::size() const {
                      "; choose that mode (--width, --height), or calibrate this one"};
 }
 
+// Between those that can be.
+uint64_t StreamCheck::unreadable() const {
+  const auto is_between = [this](int64_t time_ns) { return time_ns >= first_.time_ns && time_ns <= last_.time_ns; };
+  const auto expected = static_cast<uint64_t>(std::count_if(expected_ns_.begin(), expected_ns_.end(), is_between));
+  return expected > count_ ? expected - count_ : 0;
+}
+
 // By their numbers.  A recording may hold every third frame, say: that is its rate, and no loss.
 uint64_t StreamCheck::lost() const {
   const double usual = is_recording_ ? std::max(1.0, median(steps_)) : 1;
   uint64_t lost = 0;
   for (const double step : steps_) lost += static_cast<uint64_t>(std::max(1.0, std::floor(step / usual))) - 1;
-  return lost;
+  return lost - std::min(lost, unreadable());
 }
 
 Finding StreamCheck::rate() const {
@@ -140,15 +147,16 @@ Finding StreamCheck::rate() const {
     return {Grade::kWrong, what,
             "an image every " + fixed(1e-3 * median_ms, 0) + " s, and no camera is so slow: are the times in " +
                 unit->name + "? Seconds are expected; divide the times of images and poses by " + unit->a_second};
-  const uint64_t lost = this->lost();
+  const uint64_t lost = this->lost(), unreadable = this->unreadable(), all = count_ + lost + unreadable;
   const std::string seen = fixed(1000 / median_ms, 1) + " images a second, longest pause " + fixed(most_ms, 0) +
-                           " ms, " + std::to_string(lost) + " of " + std::to_string(count_ + lost) + " never came";
-  if (10 * lost > count_)
+                           " ms, " + std::to_string(lost) + " of " + std::to_string(all) + " never came" +
+                           (unreadable > 0 ? ", and " + std::to_string(unreadable) + " cannot be read" : "");
+  if (10 * (lost + unreadable) > count_)
     return {Grade::kWrong, what,
             seen + (is_recording_ ? "; copy the recording again, or record anew"
                                   : "; at the camera, use another USB port or bus, a smaller image, or MJPG")};
   const bool paused = most_ms > std::max(kPauseMs, kPausePeriods * median_ms);
-  return {lost > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
+  return {lost + unreadable > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
 }
 
 Finding StreamCheck::clock() const {

@@ -1,6 +1,7 @@
 // What a stream of captures looks like: rate, losses, clock, size, brightness or depth.
 #pragma once
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/live/finding.h"
@@ -14,11 +15,14 @@ class StreamCheck {
   // is_recording: what comes was recorded, so no camera can be helped.
   StreamCheck(sphc_stream stream, const sphc_rig &calibration, bool is_recording);
 
+  // The times of the images that a recording has: one that is not looked at cannot be read.
+  void expect(std::vector<int64_t> times_ns) { expected_ns_ = std::move(times_ns); }
   void look(const sphc_capture &capture);
   // Of this stream alone; nothing else is said where not one capture came.
   Findings findings() const;
 
  private:
+  uint64_t unreadable() const;
   uint64_t lost() const;
   Finding rate() const;
   std::optional<Finding> frozen() const;  // where it is
@@ -32,7 +36,8 @@ class StreamCheck {
   double depth_unit_m_;
   sphc_capture first_ = {}, last_ = {};
   uint32_t count_ = 0, repeated_ = 0;
-  uint64_t last_pixels_ = 0;   // a hash of those looked at
+  uint64_t last_pixels_ = 0;  // a hash of those looked at
+  std::vector<int64_t> expected_ns_;
   std::vector<double> steps_;  // from a number to the next
   std::vector<double> periods_ms_, brightness_, depths_m_, measured_share_;
 };

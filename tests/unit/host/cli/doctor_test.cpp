@@ -171,6 +171,14 @@ TEST_F(DoctorTest, TimesInMillisecondsAreNamedAtOnce) {
   EXPECT_THAT(slow.out, HasSubstr("are the times in milliseconds?"));
 }
 
+TEST_F(DoctorTest, ImagesThatCannotBeReadDidCome) {
+  const std::string walk = copyOfWalk("unreadable");
+  for (const char *image : {"/rgb/000003.png", "/rgb/000007.png"}) fs::resize_file(walk + image, 100);
+  const Answer answer = doctor(walk);
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("0 of 12 never came, and 2 cannot be read"), HasSubstr("000003.png")));
+}
+
 // The signal comes once it is heard.
 TEST_F(DoctorTest, AnInterruptedOneIsNoSuccess) {
   const Answer answer = runProgram(

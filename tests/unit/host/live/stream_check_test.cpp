@@ -101,6 +101,18 @@ TEST_F(StreamCheckTest, EveryThirdFrameIsARateAndNoLoss) {
   EXPECT_NE(gap.text.find("3 of 23 never came"), std::string::npos) << gap.text;
 }
 
+TEST_F(StreamCheckTest, WhatCannotBeReadIsNoLoss) {
+  is_recording_ = true;
+  missing_ = 2;
+  StreamCheck check(SPHC_STREAM_COLOR, calibration_, is_recording_);
+  std::vector<int64_t> times_ns;
+  for (int64_t number = 0; number < 22; ++number) times_ns.push_back(period_ns_ * number);
+  check.expect(times_ns);
+  feed(&check, SPHC_STREAM_COLOR, 120);
+  EXPECT_NE(check.findings()[0].text.find("0 of 22 never came, and 2 cannot be read"), std::string::npos)
+      << check.findings()[0].text;
+}
+
 TEST_F(StreamCheckTest, TimesInAnotherUnitAreNamed) {
   is_recording_ = true;
   const auto expectNamed = [&](int64_t period_ns, const char *unit) {
