@@ -9,11 +9,12 @@ constexpr double kLowGradient = 40, kHighGradient = 100;  // Canny's two thresho
 
 }  // namespace
 
-std::vector<uint8_t> imageEdges(const std::vector<uint8_t> &gray, uint32_t width, uint32_t height) {
+std::vector<uint8_t> imageEdges(const std::vector<uint8_t> &gray, uint32_t width, uint32_t height,
+                                double sensitivity) {
   const cv::Mat image(static_cast<int>(height), static_cast<int>(width), CV_8U, const_cast<uint8_t *>(gray.data()));
   cv::Mat smooth, edges;
   cv::GaussianBlur(image, smooth, cv::Size(0, 0), 1);
-  cv::Canny(smooth, edges, kLowGradient, kHighGradient);
+  cv::Canny(smooth, edges, kLowGradient / sensitivity, kHighGradient / sensitivity);
   std::vector<uint8_t> found(gray.size());
   for (size_t i = 0; i < found.size(); ++i) found[i] = edges.data[i] != 0;
   return found;

@@ -26,6 +26,8 @@ constexpr double kLeastWidth_px = 480,
 constexpr double kFewestApart_px =
     2;  // a median pixel nearer to an edge than this is in an image of nothing but edges
 constexpr uint32_t kChanceStep_px = 5;
+// In dim light edges have less contrast: fainter ones count too, until a median pixel is as near to one as this.
+constexpr double kSparse_px = 8, kMostSensitive = 4, kMoreSensitive = 1.25;
 constexpr double kMeasured = 0.2, kHardlyReached = 0.02;  // shares of pixels
 
 // Means of squares of `square` pixels; what is left over on the right and below is left out.
@@ -42,6 +44,12 @@ std::vector<uint8_t> grayOf(const sphc_image &image, uint32_t square) {
   std::transform(sums.begin(), sums.end(), gray.begin(),
                  [square](uint32_t sum) { return static_cast<uint8_t>(sum / (square * square)); });
   return gray;
+}
+
+double medianOf(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
 }
 
 // The camera of such means.
@@ -163,11 +171,17 @@ bool GeometryCheck::missesTheImage() const {
 
 void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
   const uint32_t width = compared_.width, height = compared_.height;
-  const std::vector<uint8_t> edges = imageEdges(grayOf(color, square_), width, height);
+  const std::vector<uint8_t> gray = grayOf(color, square_);
+  std::vector<uint8_t> edges;
+  std::vector<float> distance_px;
+  for (double sensitivity = 1; sensitivity <= kMostSensitive; sensitivity *= kMoreSensitive) {
+    edges = imageEdges(gray, width, height, sensitivity);
+    distance_px = distancesToEdges(edges, width, height);
+    if (medianOf(distance_px) <= kSparse_px) break;
+  }
   const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
   if (edge_count == 0) return;
   image_edges_ += edge_count;
-  const std::vector<float> distance_px = distancesToEdges(edges, width, height);
   for (size_t i = 0; i < distance_px.size(); i += kChanceStep_px)
     chance_px_.push_back(static_cast<double>(distance_px[i]));
   const std::vector<uint16_t> measured = packed(depth), lies = aligned(depth);

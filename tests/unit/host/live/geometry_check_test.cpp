@@ -81,6 +81,21 @@ TEST(GeometryCheckOfOtherDevices, ATrueCalibrationIsNotWrong) {
   }
 }
 
+// By the light of one lamp.
+TEST(GeometryCheckOfADimRoom, ATrueCalibrationIsNotWrongAndATurnedOneIs) {
+  for (const uint64_t seed : {1u, 3u, 5u}) {
+    sphc_rig calibration;
+    std::vector<WalkImages> walk =
+        renderWalk(kWalkFrames, 0.5, &calibration, SPHC_SIMULATED_CAMERAS_HEADSET, SPHC_SIMULATED_NIGHT, seed);
+    const Finding sound = lookAt(walk, calibration);
+    EXPECT_EQ(sound.grade, Finding::Grade::kFine) << seed << ": " << sound.text;
+    for (WalkImages &images : walk) std::reverse(images.depth.begin(), images.depth.end());
+    const Finding turned = lookAt(walk, calibration);
+    EXPECT_EQ(turned.grade, Finding::Grade::kWrong) << seed << ": " << turned.text;
+    EXPECT_NE(turned.text.find("half a turn"), std::string::npos) << seed << ": " << turned.text;
+  }
+}
+
 // Depth of a wide lens, and a colour image that is a strip: as a calibration may be.
 TEST(GeometryCheckOfAStrip, IsAnswered) {
   sphc_rig calibration;

@@ -15,12 +15,15 @@ struct WalkImages {
 
 // `rig` receives the cameras.  Rendering takes long: once for all tests.
 inline std::vector<WalkImages> renderWalk(uint32_t frames, double rate_hz, sphc_rig *rig,
-                                          uint32_t cameras = SPHC_SIMULATED_CAMERAS_HEADSET) {
+                                          uint32_t cameras = SPHC_SIMULATED_CAMERAS_HEADSET, uint32_t with = 0,
+                                          uint64_t seed = 1) {
   sphc_simulated_config config;
   sphc_simulated_config_init(&config, sizeof config);
   config.frame_count = frames;
   config.frame_rate_hz = rate_hz;
   config.cameras = cameras;
+  config.with = with;
+  config.seed = seed;
   sphc_simulated *simulated = nullptr;
   EXPECT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
   EXPECT_EQ(sphc_simulated_rig(simulated, rig), SPHC_OK);
