@@ -218,9 +218,9 @@ Command liveCommand(CLI::App *root) {
   auto options = std::make_shared<LiveOptions>();
   CLI::App *app = root->add_subcommand("live");
   app->description(
-      "Capture, pair, localize: where is the camera now?\n\nOn a terminal one line shows rates a second (colour and "
-      "depth images in, poses out), images lost,\nthe pose and its confidence; with --json a line of JSON comes for "
-      "every frame.");
+      "Capture, pair, localize: where is the camera now?\n\n"
+      "On a terminal one line shows rates a second (colour and depth images in, poses out), images lost,\n"
+      "the pose and its confidence; with --json a line of JSON comes for every frame.");
   app->footer(kLiveExample);
   addRigOptions(app, &options->rig);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")

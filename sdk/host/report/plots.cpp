@@ -123,7 +123,7 @@ const char kErrorColors[] =
     "set cbrange [0:5]\n"
     "set label 'cm off' at screen 0.915, 0.86 textcolor rgb '#334155'\n"
     "set colorbox user origin 0.93,0.2 size 0.018,0.6 noborder\n"
-    "set rmargin at screen 0.9\n";
+    "set rmargin 9\n";
 
 // 1, 2 or 5 times a power of ten, with at most ten of it in the length.
 double ticStep(double length) {
