@@ -518,7 +518,7 @@ TEST_F(MapTest, TheOldestRecordingComesFirst) {
   EXPECT_THAT(wrong.err, HasSubstr(at("monday") + " is older than " + at("friday") + ", by their times"));
   EXPECT_THAT(wrong.err, HasSubstr("give the oldest first"));
   // A clock that does not count from 1970 tells nothing of the order.
-  for (const std::string pair : {at("monday") + " -r " + at("friday"), at("friday") + " -r " + at("walk")}) {
+  for (const std::string &pair : {at("monday") + " -r " + at("friday"), at("friday") + " -r " + at("walk")}) {
     const Answer right = runCommand("map --last 1 --force -r " + pair + " --model " + at("order.model"));
     EXPECT_EQ(right.exit_code, kExitDone) << right.err;
   }
