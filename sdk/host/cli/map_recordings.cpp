@@ -16,7 +16,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kMostImported = 1000;  // frames, where they are not all keyframes: more of them tell little
+constexpr size_t kMostImported = 500;  // frames, where they are not all keyframes: more of them tell little
 
 // A bar for each of the mapper's steps.
 class Steps {
