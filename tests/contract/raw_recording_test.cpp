@@ -135,9 +135,7 @@ TEST_F(RawRecording, IsTheFolderToTheBit) { expectSame(folder_ / "walk", &medium
 TEST_F(RawRecording, IsARecordingOfTheWorkstationToo) {
   expectSame(folder_ / "walk.raw", &medium_);
   const OpenReplay replay(folder_ / "walk.raw");
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.layout, SPHC_REPLAY_RAW);
   EXPECT_EQ(info.pose_count, 3u);
   std::string bytes = medium_.bytes;

@@ -21,13 +21,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-sphc_replay_info infoOf(const OpenReplay &replay) {
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  EXPECT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
-  return info;
-}
-
 sphc_recorder_statistics statisticsOf(const sphc_recorder *recorder) {
   sphc_recorder_statistics statistics{};
   statistics.struct_size = sizeof statistics;

@@ -57,9 +57,7 @@ TEST_F(SevenScenes, TakesNumberAndTimeFromTheFileName) {
   for (const uint32_t number : {3u, 0u, 100u}) addFrame(number);
   const OpenReplay replay = open();
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.layout, SPHC_REPLAY_7SCENES);
   ASSERT_EQ(sphc_replay_frame_count(replay.get()), 3u);
   const uint32_t numbers[] = {0, 3, 100};
@@ -142,9 +140,7 @@ TEST_F(SevenScenes, HasNoPoseWhereTheFileIsBad) {
     sphc_replay_get_frame_info(replay.get(), i, &frame);
     EXPECT_EQ(frame.has_pose, i < 6 ? 0u : 1u);
   }
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  sphc_replay_get_info(replay.get(), &info);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.pose_count, 1u);
   EXPECT_EQ(info.bad_pose_count, 5u);
 }
@@ -356,9 +352,7 @@ TEST_F(SevenScenes, ChoosesFramesByTheirNumber) {
   config.last = 25;
   config.step = 5;
   const OpenReplay replay = open(&config);
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  sphc_replay_get_info(replay.get(), &info);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.color_count, 3u);
   EXPECT_EQ(info.depth_count, 3u);
   for (uint32_t i = 0; i < 3; ++i) {

@@ -112,9 +112,7 @@ TEST_F(Tum, PosesKeepTheirImagesWhenADoubleRoundedTheirTimes) {
 TEST_F(Tum, LeavesBadPosesOut) {
   folder_.write("groundtruth.txt", "1 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n3 0 0 0 0 0 0 1.02\n4 0 0 0 0 0 0 1\n");
   const OpenReplay replay = open();
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.pose_count, 1u);
   EXPECT_EQ(info.bad_pose_count, 3u);
 }
@@ -122,9 +120,7 @@ TEST_F(Tum, LeavesBadPosesOut) {
 TEST_F(Tum, OfPosesOfOneTimeTheFirstCountsAndTheOthersAreCounted) {
   folder_.write("groundtruth.txt", "1 5 0 0 0 0 0 1\n1 6 0 0 0 0 0 1\n1 7 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
   const OpenReplay replay = open();
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.pose_count, 2u);
   EXPECT_EQ(info.bad_pose_count, 2u);
   sphc_rigid pose;
@@ -263,9 +259,7 @@ TEST_F(Tum, ChoosesFramesByTheirPlaceAndDepthWithThem) {
   config.first = 1;
   config.step = 2;
   const OpenReplay replay = open(&config);
-  sphc_replay_info info{};
-  info.struct_size = sizeof info;
-  sphc_replay_get_info(replay.get(), &info);
+  const sphc_replay_info info = infoOf(replay);
   EXPECT_EQ(info.color_count, 3u);
   EXPECT_EQ(info.depth_count, 3u);
   sphc_source source;

@@ -106,6 +106,13 @@ class OpenReplay {
   sphc_message message_ = {};
 };
 
+inline sphc_replay_info infoOf(const OpenReplay &replay) {
+  sphc_replay_info info{};
+  info.struct_size = sizeof info;
+  EXPECT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  return info;
+}
+
 inline sphc_replay_config replayConfig() {
   sphc_replay_config config;
   sphc_replay_config_init(&config, sizeof config);

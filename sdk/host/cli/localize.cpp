@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/base/counted.h"
+#include "host/base/in_seconds.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
@@ -80,7 +81,7 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
 double stepSeconds(const RecordingReader &reader) {
   std::vector<double> steps_s;
   for (uint32_t i = 1; i < reader.frameCount(); ++i)
-    steps_s.push_back(1e-9 * static_cast<double>(reader.colorOf(i).time_ns - reader.colorOf(i - 1).time_ns));
+    steps_s.push_back(inSeconds(reader.colorOf(i).time_ns - reader.colorOf(i - 1).time_ns));
   return percentile(steps_s, 0.5);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/in_seconds.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -28,8 +29,7 @@ std::string adviceText(GuideAdvice urgent, const GuideStep &step) {
 
 std::string loopText(const ClosedLoop &loop, int64_t now_ns) {
   if (loop.is_begin) return "you are back where you began: a loop is closed";
-  return "you are back where you were " + ago(1e-9 * static_cast<double>(now_ns - loop.time_then_ns)) +
-         ": a loop is closed";
+  return "you are back where you were " + ago(inSeconds(now_ns - loop.time_then_ns)) + ": a loop is closed";
 }
 
 // A glance elsewhere is none.  In a slow recording no two lost frames may be near each other.

@@ -1,5 +1,6 @@
 #include "host/guide/walk_guide.h"
 
+#include "host/base/in_seconds.h"
 #include "host/base/median.h"
 #include "host/mapping/view_speed.h"
 
@@ -149,7 +150,7 @@ std::optional<ClosedLoop> WalkGuide::closeLoop(const Located &here) {
 
 bool WalkGuide::isTooFast(const Rigid &part_from_camera, const WalkFrame &frame) const {
   if (!located_ || located_->part != now_.part) return false;
-  const double seconds = 1e-9 * static_cast<double>(now_.time_ns - located_->time_ns);
+  const double seconds = inSeconds(now_.time_ns - located_->time_ns);
   const Rigid moved = located_->part_from_camera.inverse() * part_from_camera;
   const std::vector<double> depths = depthsOf(frame);
   const double depth_m = depths.empty() ? 1 : median(depths);
@@ -162,7 +163,7 @@ void WalkGuide::addLost(bool is_located, GuideStep *step) {
   if (largest == UINT32_MAX || (is_located && now_.part == largest)) whole_ns_ = now_.time_ns;
   if (now_.time_ns - whole_ns_ < kLostNs || places_.sizeOf(largest) < kFewestOfPart) return;
   step->advice |= kGoBack;
-  step->lost_s = 1e-9 * static_cast<double>(now_.time_ns - whole_ns_);
+  step->lost_s = inSeconds(now_.time_ns - whole_ns_);
 }
 
 }  // namespace sphc::host

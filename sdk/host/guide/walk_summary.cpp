@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/base/in_seconds.h"
+
 namespace sphc::host {
 namespace {
 
@@ -37,8 +39,7 @@ class Stretches {
       if (2 * static_cast<size_t>(with) >= advices_.size()) common |= bit;
     }
     if (advices_.size() >= kFewestFrames)
-      all_.push_back({1e-9 * static_cast<double>(from_ns_ - begin_ns_),
-                      1e-9 * static_cast<double>(to_ns_ - begin_ns_), common});
+      all_.push_back({inSeconds(from_ns_ - begin_ns_), inSeconds(to_ns_ - begin_ns_), common});
     advices_.clear();
   }
 
@@ -55,7 +56,7 @@ WalkSummary summaryOf(const std::vector<Look> &looks, const std::vector<GuidePla
   WalkSummary summary;
   if (looks.empty()) return summary;
   summary.frames = static_cast<uint32_t>(looks.size());
-  summary.seconds = 1e-9 * static_cast<double>(looks.back().time_ns - looks.front().time_ns);
+  summary.seconds = inSeconds(looks.back().time_ns - looks.front().time_ns);
   summary.loops = loops;
   summary.places = static_cast<uint32_t>(places.size());
   std::vector<uint32_t> parts;
