@@ -24,7 +24,7 @@ sphc_label(bindings rust_tests)
 
 sphc_binding_test(rust ${rust_cargo} --tests)
 sphc_binding_test(rust_documentation ${rust_cargo} --doc)
-sphc_binding_test(rust_example ${CMAKE_COMMAND} -E env ${rust_environment} ${SPHC_SAYS_POSES} "[[].*[]], [0-9.]+ sure" "FewKeypoints, .*"
+sphc_binding_test(rust_example ${CMAKE_COMMAND} -E env ${rust_environment} ${SPHC_SAYS_POSES} "[[].*[]], [0-9.]+ sure" "[[].*[]], [0-9.]+ sure" "FewKeypoints, .*"
   ${CMAKE_CURRENT_BINARY_DIR}/rust/debug/examples/first_pose ${SPHC_GOLDEN})
 add_test(NAME bindings.rust_links COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/rust_links_test.py ${SPHC_CARGO}
   ${rust_folder}/Cargo.toml)

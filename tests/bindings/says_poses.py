@@ -2,7 +2,7 @@
 """Does the example of a language find the golden session's poses?  Runs COMMAND, which must end well and say nine poses, in the order of
 the frames, and of frame 6 that it has too few keypoints.
 
-    says_poses.py POSE NO_POSE COMMAND...      patterns of the line of a frame with a pose, and of one without
+    says_poses.py FIRST POSE NO_POSE COMMAND...      patterns of the line of frame 0, of any frame with a pose, and of one without
 """
 import re
 import subprocess
@@ -11,10 +11,10 @@ import sys
 WITHOUT_POSE = 6  # of ten frames
 
 
-def fault_of(status, said, pose, no_pose):
+def fault_of(status, said, first, pose, no_pose):
     """What is wrong with it, or None."""
     lines = said.splitlines()
-    wanted = [no_pose if frame == WITHOUT_POSE else pose for frame in range(10)]
+    wanted = [first, *(no_pose if frame == WITHOUT_POSE else pose for frame in range(1, 10))]
     if status != 0:
         return "exit status %d" % status
     if len(lines) != len(wanted):
@@ -26,10 +26,10 @@ def fault_of(status, said, pose, no_pose):
 
 
 def main():
-    pose, no_pose, *command = sys.argv[1:]
+    first, pose, no_pose, *command = sys.argv[1:]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     print(done.stdout, end="")
-    fault = fault_of(done.returncode, done.stdout, pose, no_pose)
+    fault = fault_of(done.returncode, done.stdout, first, pose, no_pose)
     return "says_poses.py: " + fault if fault else 0
 
 
