@@ -331,7 +331,7 @@ Command auditCommand(CLI::App *root) {
   addRecordingOptions(app, &options->recording);
   addPosesOption(app, &options->recording);
   CLI::Option *recording = app->get_option("--recording")->required(false);
-  for (const char *name : {"--calibration", "--first", "--last", "--step", "--poses-from"})
+  for (const char *name : {"--calibration", "--first", "--last", "--step", "--poses-from", "--pose-gap-ms"})
     app->get_option(name)->needs(recording);
   app->add_option("--release", options->releases, "Another map of the place that was published; repeat")
       ->expected(1)

@@ -168,6 +168,8 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"audit m --figures ''", "--figures is empty"},
       {"audit m --truth t --last 3", "--last requires --recording"},
       {"audit m --truth t --queries 3", "--queries requires --recording"},
+      {"audit m --truth t --pose-gap-ms 70", "--pose-gap-ms requires --recording"},
+      {"build --model p --map m --pose-gap-ms 70", "--pose-gap-ms requires --recording"},
       {"audit m --name room", "--name requires --figures"},
       {"audit m --limit density.at_centre=inf", "density.at_centre=inf is not NAME=NUMBER"},
       {"audit m --truth t -r r --photos-first 3 --photos-last 2", "--photos-last lies before --photos-first"},
