@@ -8,6 +8,8 @@
 namespace sphc::host {
 namespace {
 
+constexpr size_t kMostShown = 150;
+
 bool beginsCharacter(char byte) { return (static_cast<unsigned char>(byte) & 0xc0) != 0x80; }
 
 }  // namespace
@@ -23,10 +25,10 @@ std::string fitting(const std::string &text, size_t columns) {
   return text.substr(0, bytes);
 }
 
-size_t shownColumns(size_t most) {
+size_t shownColumns() {
   winsize size = {};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most;
-  return std::min<size_t>(most, size.ws_col > 1 ? size.ws_col - 1u : 1);
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMostShown;
+  return std::min<size_t>(kMostShown, size.ws_col > 1 ? size.ws_col - 1u : 1);
 }
 
 }  // namespace sphc::host

@@ -9,8 +9,8 @@ namespace sphc::host {
 size_t columnsOf(const std::string &text);
 // Its first characters, as many as fit; none is cut in two.
 std::string fitting(const std::string &text, size_t columns);
-// Of the terminal that is stderr, less the last one, after which some terminals wrap; `most` where there are more
-// or it does not tell.
-size_t shownColumns(size_t most);
+// Of the terminal that is stderr, less the last one, after which some terminals wrap; 150 where there are more or
+// it does not tell.
+size_t shownColumns();
 
 }  // namespace sphc::host

@@ -46,7 +46,7 @@ std::optional<sphc_rigid> toldAt(const MapOptions &options, const MappedRecordin
 }
 
 void tell(const MapOptions &options, const MappedRecording &recording, Walk *walk) {
-  const ToldPieces pieces((options.told.empty() ? recording.reader->recording().poses : recording.told).poses());
+  const ToldPieces pieces(toldPoses(options, recording).poses());
   for (WalkFrame &frame : walk->keyframes)
     if (const std::optional<sphc_rigid> told = toldAt(options, recording, frame.time_ns)) {
       frame.told_world_from_camera = rigidFromC(*told);

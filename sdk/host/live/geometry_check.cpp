@@ -5,6 +5,7 @@
 #include <spherecloud/spherecloud.hpp>
 
 #include "host/base/checked_call.h"
+#include "host/base/median.h"
 #include "host/frames/image_edges.h"
 #include "host/live/depth_edge_points.h"
 #include "host/recording/calibration_json.h"
@@ -44,12 +45,6 @@ std::vector<uint8_t> grayOf(const sphc_image &image, uint32_t square) {
   std::transform(sums.begin(), sums.end(), gray.begin(),
                  [square](uint32_t sum) { return static_cast<uint8_t>(sum / (square * square)); });
   return gray;
-}
-
-double medianOf(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
 }
 
 // The camera of such means.
@@ -177,7 +172,7 @@ void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
   for (double sensitivity = 1; sensitivity <= kMostSensitive; sensitivity *= kMoreSensitive) {
     edges = imageEdges(gray, width, height, sensitivity);
     distance_px = distancesToEdges(edges, width, height);
-    if (medianOf(distance_px) <= kSparse_px) break;
+    if (median({distance_px.begin(), distance_px.end()}) <= kSparse_px) break;
   }
   const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
   if (edge_count == 0) return;

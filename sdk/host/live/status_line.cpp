@@ -7,11 +7,6 @@
 #include "host/base/terminal_text.h"
 
 namespace sphc::host {
-namespace {
-
-constexpr size_t kMostShown = 150;
-
-}  // namespace
 
 StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 StatusLine::~StatusLine() { wipe(); }
@@ -21,7 +16,7 @@ void StatusLine::show(const std::string &text) {
   last_ = Clock::now();
   drawn_ = true;
   // What does not fit would wrap, and could not be wiped.
-  std::fprintf(stderr, "\r\x1b[K%s", fitting(text, shownColumns(kMostShown)).c_str());
+  std::fprintf(stderr, "\r\x1b[K%s", fitting(text, shownColumns()).c_str());
   std::fflush(stderr);
 }
 

@@ -85,11 +85,11 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
 }
 
 // The map's axes are those of the recording's world, which may lie any way; turn the sky upright.
-std::vector<std::array<double, 3>> uprightDirections(const Run &run, const TopView &view) {
+std::vector<std::array<double, 3>> uprightDirections(const MapFacts &map, const TopView &view) {
   const auto &r = view.right, &u = view.up;
   const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
   std::vector<std::array<double, 3>> upright;
-  for (const auto &d : run.maps[mapOfMostAnswers(run)].directions) {
+  for (const auto &d : map.directions) {
     const auto flat = view.project(d.data());
     upright.push_back({flat[0], flat[1], sky[0] * d[0] + sky[1] * d[1] + sky[2] * d[2]});
   }
@@ -114,7 +114,7 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
   const TopView view = viewOfAnswers(run, map);
   content->is_up_an_axis = view.is_up_an_axis;
   const bool is_turned = view.right != TopView().right || view.up != TopView().up;
-  const cv::Mat picture = drawDirections(uprightDirections(run, view), &peak_upright,
+  const cv::Mat picture = drawDirections(uprightDirections(run.maps[map], view), &peak_upright,
                                          is_turned ? Longitudes::kBare : Longitudes::kNumbered);
   // Pixels of other axes count a little otherwise; the number that is told is that of `inspect`.
   drawDirections(run.maps[map].directions, &content->direction_peak);

@@ -11,7 +11,6 @@ namespace sphc::host {
 namespace {
 
 constexpr uint32_t kCells = 28;
-constexpr size_t kMostShown = 150;
 constexpr std::chrono::milliseconds kRedraw(80);
 
 std::string clockText(double seconds) {
@@ -44,7 +43,7 @@ void ProgressBar::show(uint32_t done, uint32_t total) {
   const std::string left = done > 0 ? clockText(elapsed * (total - done) / done) + " left" : "";
   const std::string line =
       what_ + " " + bar + " " + std::to_string(done) + "/" + std::to_string(total) + "  " + left;
-  std::fprintf(stderr, "\r\033[K%s", fitting(line, shownColumns(kMostShown)).c_str());  // wrapped, it would stay
+  std::fprintf(stderr, "\r\033[K%s", fitting(line, shownColumns()).c_str());  // wrapped, it would stay
   std::fflush(stderr);
 }
 

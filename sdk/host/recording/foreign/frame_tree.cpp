@@ -150,7 +150,7 @@ PoseTrack FrameTree::track(const std::string &frame) const {
   for (const Link *link : links)
     if (link->moving.size() > (busiest ? busiest->moving.size() : 0)) busiest = link;
   PoseTrack track;
-  if (!busiest) return track;
+  if (!busiest || rivals(frame)) return track;
   int64_t last_ns = INT64_MIN;
   for (const TimedPose &sample : busiest->moving) {
     sphc_rigid root_from_frame = kSameFrame;

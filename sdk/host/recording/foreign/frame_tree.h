@@ -34,7 +34,7 @@ class FrameTree {
   // By anything, fixed or moving.
   bool areJoined(const std::string &a, const std::string &b) const;
   // root_from_frame of the outermost frame, at every time of the transform on the way that is told most often;
-  // empty where nothing on the way moves.
+  // empty where nothing on the way moves, or rivals tell of it.
   PoseTrack track(const std::string &frame) const;
   // Two topics that tell where a frame moves and are as good as each other.
   struct Rivals {

@@ -155,7 +155,7 @@ Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   recording.path = path;
   recording.color = imagesOf(color, &recording);
   recording.depth = imagesOf(depth, &recording);
-  if (!bag.frames.rivals(color.frame)) recording.poses = bag.frames.track(color.frame);
+  recording.poses = bag.frames.track(color.frame);
   if (recording.poses.poses().empty()) recording.pose_fault = poseFaultOf(bag.frames, color.frame);
   recording.accelerations = accelerationsOf(bag, color.frame);
   recording.bad_chunk_count = bag.walk.bad_chunk_count;
