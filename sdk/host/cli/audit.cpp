@@ -238,13 +238,15 @@ Row rowOf(const AuditFigure &figure) {
   const FigureKind &kind = figure.kind;
   const std::string limit = kind.limit ? (kind.at_most ? ", at most " : ", at least ") + fixed(*kind.limit, 3) : "";
   const std::string remark = figure.remark.empty() ? "" : " (" + figure.remark + ")";
-  return {kind.name, figure.value ? fixed(*figure.value, 3) : "-",
+  const std::string error = figure.standard_error > 0 ? " +- " + fixed(figure.standard_error, 3) : "";
+  return {kind.name, figure.value ? fixed(*figure.value, 3) + error : "-",
           wordFor(figure) + limit + ": " + kind.about + remark};
 }
 
 nlohmann::ordered_json jsonOf(const AuditFigure &figure) {
   nlohmann::ordered_json json = {{"name", figure.kind.name}, {"verdict", wordFor(figure)}};
   if (figure.value) json["value"] = *figure.value;
+  if (figure.standard_error > 0) json["standard_error"] = figure.standard_error;
   if (figure.kind.limit) json["limit"] = *figure.kind.limit;
   if (!figure.remark.empty()) json["remark"] = figure.remark;
   return json;

@@ -67,9 +67,16 @@ class Painter {
   uint32_t painted_ = 0;  // sets, by each network
 };
 
-// Pictures that tell something have to be compared with something.
-Measurement ratioOf(const std::string &figure, double own, double papers) {
-  if (papers > 0) return {figure, own / papers};
+// Of a share of so many views.
+double standardErrorOf(double share, size_t views) {
+  return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(views)));
+}
+
+// Pictures that tell something have to be compared with something.  The errors of both shares count as independent.
+Measurement ratioOf(const std::string &figure, double own, double papers, size_t views) {
+  if (papers > 0)
+    return {figure, own / papers, "",
+            std::hypot(standardErrorOf(own, views), own / papers * standardErrorOf(papers, views)) / papers};
   if (own > 0) return {figure, {}, "the paper's fakes tell none of the views, to compare with"};
   return {figure, 0};
 }
@@ -86,16 +93,13 @@ AttackResult runInversion(AuditContext *context) {
   shuffle(&shuffled.descriptors, &random);
   const Told chance = painter.paint("descriptors shuffled", shuffled);
   const size_t count = painter.result.views.size();
-  Measurement of_papers = ratioOf("inversion.of_papers", own.coarse, paper.coarse);
+  Measurement of_papers = ratioOf("inversion.of_papers", own.coarse, paper.coarse, count);
   if (of_papers.value)
     of_papers.remark = std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
-  const auto errorOf = [&](double share) {
-    return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(count)));
-  };
   painter.result.measurements = {of_papers,
-                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine),
-                                 {"inversion.retrieval", own.coarse, "", errorOf(own.coarse)},
-                                 {"inversion.retrieval_fine", own.fine, "", errorOf(own.fine)},
+                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count),
+                                 {"inversion.retrieval", own.coarse, "", standardErrorOf(own.coarse, count)},
+                                 {"inversion.retrieval_fine", own.fine, "", standardErrorOf(own.fine, count)},
                                  {"inversion.retrieval_paper", paper.coarse},
                                  {"inversion.retrieval_fine_paper", paper.fine},
                                  {"inversion.retrieval_shuffled", chance.coarse},

@@ -144,6 +144,22 @@ TEST(MapAudit, ACarelessFileDoesNotHold) {
   }
 }
 
+// A dozen views cannot tell a broken limit from one that holds.
+TEST(MapAudit, SharesOfFewViewsSayHowLittleTheyTell) {
+  AuditRules rules;
+  rules.only = {"inversion"};
+  AuditInput input = inputOf(test::released(test::madeUpRoom(1500, 1), 1, 1.0 / 3));
+  input.quick = true;
+  const MapAudit result = audit(input, rules);
+  const auto [ratio, own] = std::pair(figure(result, "inversion.of_papers"), figure(result, "inversion.retrieval"));
+  const double papers = *figure(result, "inversion.retrieval_paper").value;
+  const double views = std::stod(ratio.remark);  // "22 views, ..."
+  EXPECT_NEAR(own.standard_error, std::sqrt(*own.value * (1 - *own.value) / views), 1e-9);
+  const double papers_error = std::sqrt(papers * (1 - papers) / views);
+  EXPECT_NEAR(ratio.standard_error, std::hypot(own.standard_error, *ratio.value * papers_error) / papers, 1e-9);
+  EXPECT_GT(ratio.standard_error, 0.1);
+}
+
 TEST(MapAudit, WithoutTheTruthItFailsClosed) {
   AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
   input.place.reset();
