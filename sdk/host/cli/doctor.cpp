@@ -2,6 +2,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <spherecloud/spherecloud.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/number_checks.h"
+#include "host/cli/common/point_source.h"
 #include "host/cli/common/recording_check.h"
 #include "host/cli/common/rig_options.h"
 #include "host/live/consistency_check.h"
@@ -34,6 +36,8 @@ constexpr std::chrono::seconds kPatience(30);
 struct DoctorOptions {
   RigOptions rig;
   uint32_t frames = 60;
+  double depth_min_m = spherecloud::defaultConfig().depth_min_m;
+  double depth_max_m = spherecloud::defaultConfig().depth_max_m;
 };
 
 const char *gradeText(Grade grade) {
@@ -101,12 +105,12 @@ std::vector<int64_t> timesOf(const std::vector<recording::RecordedImage> &images
 // What comes of the cameras, and the pairs of it, each looked at as it comes.
 class CaptureChecks {
  public:
-  CaptureChecks(const sphc_rig &calibration, bool is_recording)
+  CaptureChecks(const sphc_rig &calibration, const DoctorOptions &options, bool is_recording)
       : calibration_(calibration),
         color_(SPHC_STREAM_COLOR, calibration, is_recording),
         depth_(SPHC_STREAM_DEPTH, calibration, is_recording),
         geometry_(calibration),
-        consistency_(calibration) {}
+        consistency_(calibration, options.depth_min_m, options.depth_max_m) {}
 
   void look(const sphc_capture &capture) {
     ++captures_;
@@ -200,7 +204,7 @@ Findings lookAt(DoctorOptions options, const Console &console) {
   recording::RecordingReader *const recording = rig.replayed();
   if (recording)
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
-  CaptureChecks checks(calibration, recording != nullptr);
+  CaptureChecks checks(calibration, options, recording != nullptr);
   if (recording) checks.expect(recording->recording());
   const Seen seen = watch(options, recording != nullptr, &rig, &checks);
   const std::optional<Finding> how_many = findingOfHowMany(seen, checks.pairs(), options.frames);
@@ -216,11 +220,17 @@ Findings lookAt(DoctorOptions options, const Console &console) {
       findings.push_back({Grade::kDoubtful, "times", fault});
   const sphc_pairer_counts counts = rig.counts();
   append(checks.ofPairs(counts.too_far + counts.overtaken + counts.full), &findings);
-  if (recording && checks.fit()) append(findingsOfPoses(recording), &findings);
+  if (recording && checks.fit()) {
+    RgbdImportOptions import;
+    import.depth_min_m = options.depth_min_m;
+    import.depth_max_m = options.depth_max_m;
+    append(findingsOfPoses(recording, import), &findings);
+  }
   return findings;
 }
 
 int run(const DoctorOptions &options, const Console &console) {
+  checkDepthRange(options.depth_min_m, options.depth_max_m);
   const bool has_cameras = !options.rig.both.empty() || !options.rig.color.empty() || !options.rig.depth.empty();
   if (has_cameras) checkRigOptions(options.rig);
   if (!has_cameras && !options.rig.wish.calibration.empty())
@@ -262,6 +272,8 @@ Command doctorCommand(CLI::App *root) {
   app->add_option("--frames", options->frames, "Pairs to check")
       ->capture_default_str()
       ->transform(wholeFrom(1, 10000));
+  for (CLI::Option *option : addDepthRangeOptions(app, &options->depth_min_m, &options->depth_max_m))
+    option->group("Options");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -7,12 +7,12 @@
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/few_warnings.h"
-#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
 #include "host/cli/common/trust_options.h"
 #include "host/cli/field_warnings.h"
 #include "host/cli/live_pose.h"
+#include "host/cli/localizer_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/live/interrupt.h"
@@ -33,7 +33,7 @@ struct LiveOptions {
   uint32_t frames = 0;
   double seconds = 0;
   bool every = false;
-  sphc_localizer_config config = spherecloud::defaultConfig();
+  LocalizerOptions localizer;
 };
 
 const char kNotLocalized[] =
@@ -46,7 +46,7 @@ const char kNoDepth[] =
 const char kNoPair[] = "Not one pair of images came. `spherecloud doctor` says what the cameras do.";
 
 struct LiveTally {
-  uint32_t frames = 0, localized = 0, skipped = 0;
+  uint32_t frames = 0, localized = 0, too_late = 0, skipped = 0;
   double total_ms = 0;
   Rate color, depth, poses;
   std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
@@ -61,6 +61,7 @@ bool hadNoDepthAtAll(const LiveTally &tally) {
 
 const char *whyNotLocalized(const LiveTally &tally) {
   if (tally.frames == 0) return kNoPair;
+  if (tally.too_late == tally.frames) return kAllTooLate;
   return hadNoDepthAtAll(tally) ? kNoDepth : kNotLocalized;
 }
 
@@ -104,7 +105,7 @@ uint32_t skipToNewest(Rig *rig, CapturePair *pair) {
 }
 
 void checkAmplitude(const LiveOptions &options, const CapturePair &pair) {
-  if (options.config.amplitude_min == 0 || pair.depth.amplitude.data) return;
+  if (options.localizer.config.amplitude_min == 0 || pair.depth.amplitude.data) return;
   throw std::runtime_error("frame " + std::to_string(pair.color.sequence) +
                            ": the depth camera gave no amplitudes; leave --amplitude-min out");
 }
@@ -113,13 +114,16 @@ void lookAt(const CapturePair &pair, const LiveOptions &options, const Rig &rig,
             spherecloud::Localizer *localizer, StatusLine *line, LiveTally *tally) {
   sphc_localizer_result result = spherecloud::emptyResult();
   const auto begin = std::chrono::steady_clock::now();
-  const spherecloud::Status status = localizer->process(frameOf(pair), &result);
+  sphc_localizer_frame frame = frameOf(pair);
+  frame.deadline_us = options.localizer.deadline_us;
+  const spherecloud::Status status = localizer->process(frame, &result);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (status.failed())
     throw std::runtime_error("frame " + std::to_string(pair.color.sequence) + ": " + status.text() +
                              "; does the calibration belong to these cameras?");
   ++tally->frames;
   tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
+  tally->too_late += result.outcome == SPHC_OUTCOME_DEADLINE;
   tally->total_ms += ms;
   countBits(kFaultWords, result.faults, &tally->faults);
   countBits(kHintWords, result.hints, &tally->hints);
@@ -167,11 +171,12 @@ int run(const LiveOptions &options, const Console &console) {
     unreadable.add(why);
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  sphc_localizer_config config = options.config;
+  sphc_localizer_config config = options.localizer.config;
   const sphc_rig calibration = calibrationOf(options.rig, rig);
   warnOfField(calibration, console);
+  noteRowsThatStay(options.localizer, NAN, console);
   setCameras(calibration, &config);
-  spherecloud::Localizer localizer = makeLocalizer(config, maps);
+  spherecloud::Localizer localizer = makeLocalizer(config, maps, options.localizer.parameters);
   LiveTally tally;
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });
   const bool every = options.every || rig.waits();
@@ -229,14 +234,11 @@ Command liveCommand(CLI::App *root) {
       ->take_all()
       ->type_name("FILE");
   addTrustOptions(app, &options->trust);
-  addBandOption(app, &options->config.color_band,
-                "The light that the colour camera sees; a map must be of the same");
-  addAmplitudeOption(app, &options->config.amplitude_min);
-  addRowTimeOption(app, &options->config.color_row_time_ns, "tell it to build too");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never")
       ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");
+  addLocalizerOptions(app, &options->localizer);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -8,15 +8,13 @@
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
-#include "host/cli/common/choices.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
-#include "host/cli/common/light_options.h"
-#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/trust_options.h"
+#include "host/cli/localizer_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/frames/recording.h"
@@ -41,9 +39,7 @@ struct LocalizeOptions {
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
   bool odometry = false, align = false, force = false;
-  sphc_localizer_config config = spherecloud::defaultConfig();
-  Parameters parameters;
-  uint32_t deadline_us = 0;
+  LocalizerOptions localizer;
 };
 
 FileUse fileUse(const LocalizeOptions &options) {
@@ -73,7 +69,7 @@ void readNotes(const LocalizeOptions &options, LocalizeInput *input, Run *run) {
 void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
   if (reader.recording().poses.poses().empty())
     console.warn(std::string("note: --odometry: ") + kNoPoses + " to play");
-  if (options.config.mode == SPHC_MODE_SINGLE)
+  if (options.localizer.config.mode == SPHC_MODE_SINGLE)
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
 
@@ -83,20 +79,6 @@ double stepSeconds(const RecordingReader &reader) {
   for (uint32_t i = 1; i < reader.frameCount(); ++i)
     steps_s.push_back(inSeconds(reader.colorOf(i).time_ns - reader.colorOf(i - 1).time_ns));
   return percentile(steps_s, 0.5);
-}
-
-void noteRowsThatStay(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
-  if (options.config.color_row_time_ns == 0) return;
-  const auto note = [&console](const std::string &why, const std::string &cure) {
-    console.warn("note: --row-time-ns: how the camera moves is not known " + why +
-                 ", so rows stay where they are, and poses are less sure by that; " + cure);
-  };
-  if (options.config.mode != SPHC_MODE_TRACKING)
-    return note("in --mode single", "--mode tracking straightens them");
-  const double step_s = stepSeconds(reader);
-  if (step_s > kLongestStepS)
-    note("between frames " + fixed(step_s, 2) + " s apart, with --odometry neither",
-         "choose frames at most " + fixed(kLongestStepS, 2) + " s apart (a smaller --step)");
 }
 
 // They would be neither truth nor odometry without a word.
@@ -116,18 +98,18 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.maps = openMapFiles(options.maps, trustOf(options.trust));
   for (size_t i = 0; i < options.maps.size(); ++i) run.maps.push_back(mapFacts(input.maps[i], options.maps[i]));
   input.reader = reader;
-  input.deadline_us = options.deadline_us;
+  input.deadline_us = options.localizer.deadline_us;
   if (options.odometry) noteUselessOdometry(options, *reader, console);
-  noteRowsThatStay(options, *reader, console);
+  noteRowsThatStay(options.localizer, stepSeconds(*reader), console);
   notePosesOfOtherTimes(options, *reader, console);
   input.play_odometry = options.odometry;
-  input.config = options.config;
-  input.parameters = options.parameters;
+  input.config = options.localizer.config;
+  input.parameters = options.localizer.parameters;
   input.keep_observations = !options.report.empty();
   setCameras(reader->calibration(), &input.config);
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config, input.parameters);
-  run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
+  run.settings.push_back({"deadline_us", std::to_string(options.localizer.deadline_us)});
   run.settings.push_back({"odometry", options.odometry ? "played" : "none"});
   ProgressBar bar("localizing");
   FewWarnings warnings(console, "note: ", "frame", " could not be read");
@@ -219,7 +201,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   if (summary.localized > 0) return kExitDone;
   console.warn(
       summary.outcomes[SPHC_OUTCOME_DEADLINE] == summary.frames
-          ? "Not one frame was localized before its deadline. Raise --deadline-us."
+          ? kAllTooLate
           : "Not one frame was localized. Is this the place that the map shows? Is the calibration right? The "
             "report (--report DIR) shows what the localizer saw.");
   return kExitNotLocalized;
@@ -252,42 +234,6 @@ void addOutputs(CLI::App *app, LocalizeOptions *options) {
   addForceOption(app, &options->force);
 }
 
-void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameters *parameters) {
-  const auto add = [app](const char *name, auto &field, const char *text) {
-    return app->add_option(name, field, text)->capture_default_str()->group("Localizer");
-  };
-  add("--seed", config->seed, "Seed of the random samples; the same seed gives the same answers")
-      ->transform(wholeFrom(0));
-  add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096")
-      ->transform(wholeFrom(0, UINT32_MAX));
-  add("--ratio", parameters->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
-  add("--max-iterations", parameters->max_iterations, "Most samples drawn for a frame");
-  add("--min-inliers", parameters->min_inliers, "A pose with fewer is not given out");
-  add("--depth-min", config->depth_min_m, "Nearest depth used, metres");
-  add("--depth-max", config->depth_max_m, "Farthest depth used, metres");
-  add("--depth-sigma", config->depth_sigma_m, "Depth noise at z: this + the next * z^2, metres");
-  add("--depth-sigma-per-m2", config->depth_sigma_per_m2, "See --depth-sigma");
-  add("--pixel-sigma", config->pixel_sigma_px, "Noise of a keypoint's position, pixels");
-  add("--map-sigma", config->map_sigma_m, "Error of a map point across its direction, metres");
-  add("--depth-mid", config->depth_mid_m,
-      "Where the depth sensor's offset is stated, metres; 0: middle of its range");
-  add("--depth-offset-sigma", config->depth_offset_sigma_m,
-      "Unknown offset of the depth sensor there, metres; 0 with the next 0: a sensor without bias");
-  add("--depth-slope-sigma", config->depth_slope_sigma, "Unknown slope of its error over depth");
-  addBandOption(app, &config->color_band, "The light that the colour camera sees; a map must be of the same")
-      ->group("Localizer");
-  addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
-  addRowTimeOption(app, &config->color_row_time_ns,
-                   "for --mode tracking and frames at most 0.25 s apart; tell it to build too")
-      ->group("Localizer");
-  add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
-  app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
-      ->transform(oneOf<sphc_localizer_mode>({{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}}))
-      ->default_str("tracking")
-      ->type_name("tracking|single")
-      ->group("Localizer");
-}
-
 }  // namespace
 
 Command localizeCommand(CLI::App *root) {
@@ -314,12 +260,7 @@ Command localizeCommand(CLI::App *root) {
                 "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
   addTrustOptions(app, &options->trust);
   addOutputs(app, options.get());
-  addLocalizerOptions(app, &options->config, &options->parameters);
-  app->add_option("--deadline-us", options->deadline_us,
-                  "Time for a frame, after which the best pose so far is given out; 0: no deadline")
-      ->capture_default_str()
-      ->transform(wholeFrom(0, UINT32_MAX))
-      ->group("Localizer");
+  addLocalizerOptions(app, &options->localizer);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

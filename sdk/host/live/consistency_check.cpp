@@ -1,7 +1,5 @@
 #include "host/live/consistency_check.h"
 
-#include <spherecloud/spherecloud.hpp>
-
 #include "host/report/fault_words.h"
 
 namespace sphc::host {
@@ -11,9 +9,8 @@ constexpr uint32_t kOneIn = 10;  // of the pairs: a fault that is seen less ofte
 
 }  // namespace
 
-ConsistencyCheck::ConsistencyCheck(const sphc_rig &calibration)
-    : consistency_(calibration, spherecloud::defaultConfig().depth_min_m,
-                   spherecloud::defaultConfig().depth_max_m) {}
+ConsistencyCheck::ConsistencyCheck(const sphc_rig &calibration, double depth_min_m, double depth_max_m)
+    : consistency_(calibration, depth_min_m, depth_max_m) {}
 
 void ConsistencyCheck::look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth,
                             int64_t depth_time_ns) {

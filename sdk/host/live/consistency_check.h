@@ -7,7 +7,8 @@ namespace sphc::host {
 
 class ConsistencyCheck {
  public:
-  explicit ConsistencyCheck(const sphc_rig &calibration);
+  // Depths that are used: those of such a range.
+  ConsistencyCheck(const sphc_rig &calibration, double depth_min_m, double depth_max_m);
 
   // A pair of images of the calibration's sizes; the times are those of the middles of their exposures.
   void look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth, int64_t depth_time_ns);

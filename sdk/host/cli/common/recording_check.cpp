@@ -10,7 +10,6 @@
 #include "host/base/counted.h"
 #include "host/cli/common/contradictions.h"
 #include "host/frames/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/recording/failure.h"
 #include "host/recording/image_reader.h"
 
@@ -106,7 +105,7 @@ Findings findingsOfImages(const RecordingReader &reader) {
   return findings;
 }
 
-Findings findingsOfPoses(RecordingReader *reader) {
+Findings findingsOfPoses(RecordingReader *reader, const RgbdImportOptions &import) {
   const size_t poses = reader->recording().poses.poses().size();
   const std::string &fault = reader->recording().pose_fault;
   if (!fault.empty()) return {{Grade::kDoubtful, "poses", fault}};
@@ -118,7 +117,7 @@ Findings findingsOfPoses(RecordingReader *reader) {
              "none of " + counted(poses, "pose") + ofOtherTimes(*reader, reader->recording().poses)}};
   RgbdImportSummary summary;
   try {
-    importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, {}, {}, &summary);
+    importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, import, {}, &summary);
   } catch (const std::runtime_error &error) {
     return {{Grade::kDoubtful, "poses", error.what()}};
   }

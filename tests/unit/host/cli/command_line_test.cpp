@@ -177,6 +177,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"doctor --calibration c", "--calibration is of cameras"},
       {"live -m m --device replay:r --width -1", "--width"},
       {"live -m m --device replay:r --fps 0x10", "--fps"},
+      {"doctor --device replay:r --depth-min 3 --depth-max 2", "--depth-min must be less than --depth-max"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
     const Answer answer = runCommand(command);
@@ -359,8 +360,9 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   const std::vector<std::string> ways = {
       "convert " + walk + " " + (folder / "walk.mcap"), "convert --to 7scenes " + walk + " " + (folder / "seq-01"),
       "localize --map " + map + " -r " + walk + " --frames-json " + (folder / "frames.jsonl")};
-  EXPECT_THAT(runCommand("localize --deadline-us 1 --map " + map + " -r " + walk).err,
-              HasSubstr("before its deadline. Raise --deadline-us."));
+  for (const std::string command : {"localize -r ", "live --device replay:"})
+    EXPECT_THAT(runCommand(command + walk + " --deadline-us 1 --map " + map).err,
+                HasSubstr("before its deadline. Raise --deadline-us."));
   for (int i = 0; i < 13; ++i)
     std::ofstream(walk + (i < 10 ? "/rgb/00000" : "/rgb/0000") + std::to_string(i) + ".png") << "no image";
   for (const std::string &way : ways) {
@@ -369,9 +371,7 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
     EXPECT_THAT(said, Not(HasSubstr("rgb/000010.png"))) << way;
     EXPECT_THAT(said, HasSubstr("3 more ")) << way;
   }
-  std::ifstream lines(folder / "frames.jsonl");
-  std::vector<nlohmann::json> frames;
-  for (std::string line; std::getline(lines, line);) frames.push_back(nlohmann::json::parse(line));
+  const auto frames = jsonLines(fileText(folder / "frames.jsonl"));
   ASSERT_EQ(frames.size(), 14u);
   EXPECT_EQ(frames[12]["sequence"], 12);
   EXPECT_EQ(frames[12]["outcome"], "unreadable");
@@ -713,17 +713,33 @@ TEST(Calibration, OptionsSayWhatAFileLeavesOpen) {
   EXPECT_EQ(json["depth_unit_m"], 0.0002);
 }
 
+// The localizer of cameras is that of recordings.
+void expectTheSameAnswersOfBoth(const test::TempFolder &folder, const std::string &walk, const std::string &map,
+                                const std::string &options) {
+  const std::string file = folder / "answers.jsonl";
+  runCommand("localize --force -r " + walk + " -m " + map + " --frames-json " + file + options);
+  const auto answers = jsonLines(fileText(file));
+  const auto seen = jsonLines(runCommand("live --json --device replay:" + walk + " -m " + map + options).out);
+  ASSERT_EQ(seen.size(), answers.size()) << options;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(seen[i]["outcome"], answers[i]["outcome"]) << options;
+    EXPECT_EQ(seen[i]["inliers"], answers[i]["inliers"]) << options;
+    EXPECT_EQ(seen[i]["hints"], answers[i]["hints"]) << options;
+  }
+}
+
 // A recording in a camera's place.
 void expectCaptures(const test::TempFolder &folder, const std::string &walk, const std::string &map) {
   const std::string camera = " --device replay:" + walk;
   const Answer live = runCommand("live --json --map " + map + camera);
   EXPECT_EQ(live.exit_code, kExitDone) << live.err;
-  std::stringstream lines(live.out);
-  std::string line;
-  uint32_t frames = 0, localized = 0;
-  for (; std::getline(lines, line); ++frames) localized += nlohmann::json::parse(line)["localized"].get<bool>();
-  EXPECT_EQ(frames, 6u);
-  EXPECT_GE(localized, 5u);
+  const auto lines = jsonLines(live.out);
+  EXPECT_EQ(lines.size(), 6u);
+  EXPECT_GE(std::count_if(lines.begin(), lines.end(), [](const auto &line) { return line["localized"]; }), 5);
+  for (const char *options :
+       {"", " --mode single --max-keypoints 300 --seed 7", " --depth-max 1.2 --depth-sigma 0.02",
+        " --probes 1 --ratio 0.7 --max-iterations 500 --min-inliers 30"})
+    expectTheSameAnswersOfBoth(folder, walk, map, options);
 
   const std::string file = folder / "again.mcap";
   const Answer recorded = runCommand("record --json --out " + file + camera);
@@ -858,8 +874,7 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   }
 
   expectExplained(json);
-  std::ifstream frame_lines(folder / "f.jsonl");
-  for (std::string line; std::getline(frame_lines, line);) expectExplained(nlohmann::json::parse(line));
+  for (const auto &line : jsonLines(fileText(folder / "f.jsonl"))) expectExplained(line);
 
   const Answer mixed_up = runCommand(localize + " --frames-json /dev/stdout");
   EXPECT_EQ(mixed_up.exit_code, kExitFailure);

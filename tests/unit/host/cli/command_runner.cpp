@@ -25,6 +25,13 @@ void record(const Answer &answer) {
 
 }  // namespace
 
+std::vector<nlohmann::json> jsonLines(const std::string &text) {
+  std::vector<nlohmann::json> all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) all.push_back(nlohmann::json::parse(line));
+  return all;
+}
+
 std::string fileText(const std::string &path) {
   const auto bytes = readBytes(path);
   return {bytes.begin(), bytes.end()};

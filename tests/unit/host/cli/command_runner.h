@@ -1,6 +1,8 @@
 // Runs the spherecloud command as a user does.
 #pragma once
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace sphc::host {
 
@@ -12,6 +14,9 @@ struct Answer {
 Answer runCommand(const std::string &arguments);
 // The same of any program.
 Answer runProgram(const std::string &program, const std::string &arguments);
+
+// Of text with an object a line.
+std::vector<nlohmann::json> jsonLines(const std::string &text);
 
 // All of a file that is there.
 std::string fileText(const std::string &path);

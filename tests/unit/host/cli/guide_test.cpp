@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
@@ -35,13 +34,6 @@ void writeWall(const std::string &folder, int64_t depth_lag_ns = 0) {
   ASSERT_EQ(sphc_recording_close(&writer, nullptr), SPHC_OK);
 }
 
-std::vector<nlohmann::json> linesOf(const std::string &text) {
-  std::vector<nlohmann::json> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
-  return lines;
-}
-
 class GuideTest : public testing::Test {
  protected:
   void SetUp() override { writeWall(at("wall")); }
@@ -67,7 +59,7 @@ TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
   const Answer answer =
       runCommand("record --guide --json --device replay:" + at("wall") + " --out " + at("walk.mcap"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
-  const std::vector<nlohmann::json> lines = linesOf(answer.out);
+  const std::vector<nlohmann::json> lines = jsonLines(answer.out);
   ASSERT_EQ(lines.size(), kFramesOfWall + 1);
   EXPECT_EQ(lines[3]["advice"], "");
   EXPECT_THAT(lines[kFramesOfWall - 1]["advice"].get<std::string>(), HasSubstr("too dark"));
@@ -119,7 +111,7 @@ TEST_F(GuideTest, ARecordingIsLookedAtAfterwards) {
       runCommand("record --guide --json --device replay:" + at("wall") + " --out " + at("walk.mcap"));
   const Answer answer = runCommand("guide --json --score --recording " + at("wall"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
-  const std::vector<nlohmann::json> then = linesOf(recorded.out), now = linesOf(answer.out);
+  const std::vector<nlohmann::json> then = jsonLines(recorded.out), now = jsonLines(answer.out);
   ASSERT_EQ(now.size(), then.size());
   for (size_t i = 0; i + 1 < now.size(); ++i) EXPECT_EQ(now[i]["advice"], then[i]["advice"]) << i;
   EXPECT_EQ(now.back()["summary"]["path_m"], then.back()["guide"]["path_m"]);

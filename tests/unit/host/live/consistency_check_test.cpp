@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint32_t kFrames = 8;
 constexpr int64_t kPeriodNs = 100000000;
+constexpr double kDepthMinM = 0.25, kDepthMaxM = 6;
 
 // A walk through the simulated room, rendered once.
 class ConsistencyCheckTest : public testing::Test {
@@ -20,8 +21,8 @@ class ConsistencyCheckTest : public testing::Test {
   static void TearDownTestSuite() { images_.clear(); }
 
   using Spoil = std::function<void(uint32_t i, WalkImages *images)>;
-  Findings look(const Spoil &spoil) {
-    ConsistencyCheck check(rig_);
+  Findings look(const Spoil &spoil, double depth_max_m = kDepthMaxM) {
+    ConsistencyCheck check(rig_, kDepthMinM, depth_max_m);
     const sphc_camera &c = rig_.color_camera, &d = rig_.depth_camera;
     for (uint32_t i = 0; i < kFrames; ++i) {
       WalkImages images = images_[i];
@@ -59,7 +60,19 @@ TEST_F(ConsistencyCheckTest, EveryFaultIsOneFinding) {
   EXPECT_EQ(findings[1].what, "depth constant");
 }
 
-TEST_F(ConsistencyCheckTest, WithoutAPairNothingIsSaid) { EXPECT_TRUE(ConsistencyCheck(rig_).findings().empty()); }
+TEST_F(ConsistencyCheckTest, AHallIsInTheRangeThatIsTold) {
+  const Spoil enlarge = [](uint32_t, WalkImages *images) {
+    for (uint16_t &depth : images->depth) depth = static_cast<uint16_t>(10 * depth);
+  };
+  const Findings beyond = look(enlarge);
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_EQ(beyond[0].what, "depth out of range");
+  for (const Finding &finding : look(enlarge, 60)) EXPECT_NE(finding.what, "depth out of range");
+}
+
+TEST_F(ConsistencyCheckTest, WithoutAPairNothingIsSaid) {
+  EXPECT_TRUE(ConsistencyCheck(rig_, kDepthMinM, kDepthMaxM).findings().empty());
+}
 
 }  // namespace
 }  // namespace sphc::host
