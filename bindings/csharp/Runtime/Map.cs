@@ -68,7 +68,7 @@ public sealed unsafe class Map : IDisposable {
 }
 
 public unsafe partial struct MapInfo {
-  /// <summary>The random name of this build of the map, 32 hexadecimal digits.</summary>
+  /// <summary>The name of this release of the map, by what it holds, 32 hexadecimal digits.</summary>
   public string BuildName {
     get {
       var digits = new System.Text.StringBuilder(32);

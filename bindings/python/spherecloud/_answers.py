@@ -37,7 +37,7 @@ class MapInfoFields(Answer):
 
     @property
     def map_id(self) -> bytes:
-        """Random name of this build."""
+        """Name of this release, by what it holds; docs/map_format.md."""
         return bytes(self._raw.map_id)
 
     @property

@@ -144,7 +144,7 @@ class sphc_map_info(ctypes.Structure):
     # id of the keypoint extractor that described the points
     extractor: int
     file_bytes: int
-    # random name of this build
+    # name of this release, by what it holds; docs/map_format.md
     map_id: ctypes.Array[ctypes.c_uint8]
     # of the images that it was made of
     band: int

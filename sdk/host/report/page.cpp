@@ -209,7 +209,7 @@ std::string mapSection(const Run &run, const PageContent &content) {
     if (run.maps.size() > 1) rows.push_back({"map", map.path, counted(answers[i], "frame") + " localized in it"});
     rows.push_back({"points, real and fake", std::to_string(map.points), "the file does not tell them apart"});
     rows.push_back({"bytes", humanBytes(static_cast<double>(map.file_bytes)), ""});
-    rows.push_back({"map id", map.id.substr(0, 12) + "…", "random name of this build"});
+    rows.push_back({"map id", map.id.substr(0, 12) + "…", "name of this release, by what it holds"});
     rows.push_back({"format version", std::to_string(map.format_version), ""});
     rows.push_back({"extractor", std::to_string(map.extractor), "what described the points"});
     rows.push_back({"band", bandName(map.band), "the light of its images"});

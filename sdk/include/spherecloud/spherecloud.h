@@ -353,7 +353,7 @@ typedef struct sphc_map_info {
   uint32_t point_count; /* real and fake together; the file does not tell them apart */
   uint32_t extractor;   /* id of the keypoint extractor that described the points */
   uint64_t file_bytes;
-  uint8_t map_id[16]; /* random name of this build */
+  uint8_t map_id[16]; /* name of this release, by what it holds; docs/map_format.md */
   sphc_band band;     /* of the images that it was made of */
   uint32_t reserved;
 } sphc_map_info;

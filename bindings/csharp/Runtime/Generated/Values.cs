@@ -17,7 +17,7 @@ public unsafe partial struct MapInfo {
   public uint Extractor;
   /// <summary>Size of its file.</summary>
   public ulong FileBytes;
-  /// <summary>Random name of this build.</summary>
+  /// <summary>Name of this release, by what it holds; docs/map_format.md.</summary>
   internal fixed byte map_id[16];
   /// <summary>Of the images that it was made of.</summary>
   public Band Band;

@@ -452,7 +452,7 @@ pub struct sphc_map_info {
     /// id of the keypoint extractor that described the points
     pub extractor: u32,
     pub file_bytes: u64,
-    /// random name of this build
+    /// name of this release, by what it holds; docs/map_format.md
     pub map_id: [u8; 16],
     /// of the images that it was made of
     pub band: sphc_band,

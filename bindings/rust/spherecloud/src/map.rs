@@ -46,7 +46,7 @@ pub struct MapInfo {
     pub extractor: u32,
     /// Length of the file.
     pub file_bytes: u64,
-    /// The random name of this build.
+    /// The name of this release, by what it holds.
     pub map_id: [u8; 16],
     /// Of the images that it was made of.
     pub band: Band,

@@ -53,6 +53,7 @@ TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {
   const std::string page = write();
   EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
   EXPECT_THAT(page, HasSubstr("walk &lt;one&gt;"));
+  EXPECT_THAT(page, HasSubstr("name of this release, by what it holds")) << "the id of a map";
   EXPECT_THAT(page, Not(HasSubstr("src='http")));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   for (const char *file : {"overlay_best.jpg", "overlay_not_localized_1.jpg", "map_directions.png", "frames.jsonl",

@@ -32,7 +32,7 @@ public final class MapInfo extends Struct {
     return getLong(Layout.MAP_INFO_FILE_BYTES);
   }
 
-  /** Random name of this build. */
+  /** Name of this release, by what it holds; docs/map_format.md. */
   public byte[] getMapId() {
     return getBytes(Layout.MAP_INFO_MAP_ID, 16);
   }
