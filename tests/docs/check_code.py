@@ -5,7 +5,7 @@
 
 A block ```c is a whole file.  A block ```c fragment is put into a function; what it needs declared before it stands in a
 comment `<!-- before: ... -->` above it, which readers do not see.  Lines of that comment that begin with `#` go to the
-top of the file.
+top of the file.  Static memory for the library says how it is aligned.
 """
 import argparse
 import re
@@ -18,6 +18,8 @@ from markdown import pages, report
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only"]
 C_HEADERS = "#include <spherecloud/spherecloud.h>\n#include <stdio.h>\n"
 CXX_HEADERS = "#include <spherecloud/spherecloud.hpp>\n#include <cstdio>\n"
+# Memory for the library, in a static array of bytes; it is refused where no compiler happens to align it.
+ARRAY = re.compile(r"^[^;]*\bstatic\b[^;]*\[SPHC_\w+_BYTES_MAX\b[^;]*;", re.MULTILINE)
 
 
 def is_c(block):
@@ -53,6 +55,11 @@ def compile_block(block, root, compilers):
     return run.stderr if run.returncode else ""
 
 
+def lies_anywhere(block):
+    """Whether a block hands out static memory that it does not align."""
+    return any("align" not in array.lower() for array in ARRAY.findall(block.text))
+
+
 def faults_of(root, compilers):
     root, faults, blocks = Path(root).resolve(), [], 0
     for page in pages(root):
@@ -63,6 +70,8 @@ def faults_of(root, compilers):
             said = compile_block(block, root, compilers)
             if said:
                 faults.append(f"{page.path.relative_to(root)}:{block.line}: this block does not compile\n{said}")
+            if lies_anywhere(block):
+                faults.append(f"{page.path.relative_to(root)}:{block.line}: memory for the library is not aligned")
     print(f"{blocks} blocks compiled")
     return faults
 

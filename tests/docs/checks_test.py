@@ -130,6 +130,13 @@ class Checks(unittest.TestCase):
         self.page("```cpp fragment\nsphc::Gone gone;\n```\n")
         self.assert_fault(self.code(), "does not compile")
 
+    def test_memory_that_lies_anywhere(self):
+        memory = "uint8_t memory[SPHC_MAP_BYTES_MAX];\n```\n"
+        self.page("```c fragment\nstatic " + memory)
+        self.assert_fault(self.code(), "memory for the library is not aligned")
+        self.page("```c fragment\nstatic __attribute__((aligned(64))) " + memory)
+        self.assertEqual(self.code(), [])
+
     def test_an_option_that_is_gone(self):
         self.page("```\nspherecloud build --gone walk\n```\n")
         self.assert_fault(self.commands(), "has no option --gone")
