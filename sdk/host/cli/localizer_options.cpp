@@ -22,7 +22,8 @@ void addSearchOptions(CLI::App *app, LocalizerOptions *options) {
   add(app, "--max-keypoints", &options->config.max_keypoints, "Strongest keypoints of a frame, 64 to 4096")
       ->transform(wholeFrom(0, UINT32_MAX));
   add(app, "--ratio", &parameters->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
-  add(app, "--max-iterations", &parameters->max_iterations, "Most samples drawn for a frame");
+  add(app, "--max-iterations", &parameters->max_iterations,
+      "Most samples drawn in one search; a frame takes one to a few");
   add(app, "--min-inliers", &parameters->min_inliers, "A pose with fewer is not given out");
   add(app, "--probes", &parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   app->add_option("--mode", options->config.mode, "tracking: frames follow each other; single: each frame alone")
@@ -43,7 +44,7 @@ void addNoiseOptions(CLI::App *app, sphc_localizer_config *config) {
   add(app, "--pixel-sigma", &config->pixel_sigma_px, "Noise of a keypoint's position, pixels");
   add(app, "--map-sigma", &config->map_sigma_m, "Error of a map point across its direction, metres");
   add(app, "--depth-mid", &config->depth_mid_m,
-      "Where the depth sensor's offset is stated, metres; 0: middle of its range");
+      "Where the depth sensor's offset is stated, metres; 0: geometric mean of its range");
   add(app, "--depth-offset-sigma", &config->depth_offset_sigma_m,
       "Unknown offset of the depth sensor there, metres; 0 with the next 0: a sensor without bias");
   add(app, "--depth-slope-sigma", &config->depth_slope_sigma, "Unknown slope of its error over depth");

@@ -1,7 +1,8 @@
 /* recorder.h - records captures into one file that survives a crash, and that replay.h plays.
  *
  *     sphc_recorder_open("walk.mcap", &calibration, NULL, &recorder, &message);
- *     while (source.acquire(source.self, timeout_us, &capture) == SPHC_OK) {
+ *     while ((status = source.acquire(source.self, timeout_us, &capture)) >= 0 && status != SPHC_END) {
+ *       if (status == SPHC_AGAIN) continue;    nothing came in time
  *       sphc_recorder_add(recorder, &capture, &message);
  *       source.release(source.self, &capture);
  *     }
