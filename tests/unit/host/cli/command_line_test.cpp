@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "command_runner.h"
+#include "explained.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/recording_out.h"
 #include "host/recording/recording_reader.h"
@@ -761,7 +761,9 @@ void expectDiscipline(const test::TempFolder &folder, const std::string &build, 
   const std::string again = folder / "again.sphc", ledger = folder / "spherecloud.ledger";
   const Answer same = runCommand(build + "--json -m " + again);
   ASSERT_EQ(same.exit_code, kExitDone) << same.err;
-  EXPECT_TRUE(nlohmann::json::parse(same.out)["release"]["same_as_before"].get<bool>());
+  const auto json = nlohmann::json::parse(same.out);
+  EXPECT_TRUE(json["release"]["same_as_before"].get<bool>());
+  expectExplained(json);
   EXPECT_EQ(std::system(("cmp -s " + map + " " + again).c_str()), 0) << "one recording, other bytes";
 
   const Answer other_eta = runCommand(build + "--eta 0.5 -m " + again);
@@ -836,16 +838,6 @@ TEST(Simulate, SaysThatAnExposureWithoutBlurChangesNothing) {
   EXPECT_THAT(runCommand(simulate + (folder / "one") + " --no-blur").err, Not(HasSubstr(note)));
 }
 
-// The command's page explains every key.
-void expectExplained(const nlohmann::json &json) {
-  static const std::string page = fileText(SPHC_COMMAND_PAGE);
-  static const std::set<std::string> of_names = {"outcomes", "faults", "hints", "settings"};
-  for (const auto &[key, value] : json.items()) {
-    EXPECT_THAT(page, HasSubstr("`" + key + "`"));
-    if (value.is_object() && !of_names.count(key)) expectExplained(value);
-  }
-}
-
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const test::TempFolder folder;
@@ -874,6 +866,7 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   }
 
   expectExplained(json);
+  expectExplained(nlohmann::json::parse(fileText(map + ".owner.json")));
   for (const auto &line : jsonLines(fileText(folder / "f.jsonl"))) expectExplained(line);
 
   const Answer mixed_up = runCommand(localize + " --frames-json /dev/stdout");

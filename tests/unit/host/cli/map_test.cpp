@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_runner.h"
+#include "explained.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/calibration_json.h"
 #include "host/recording/recording_reader.h"
@@ -107,6 +108,7 @@ TEST_F(MapTest, TheScoreComparesWithThePosesOfTheRecording) {
   EXPECT_GT(summary["residuals_of_poses"]["ray_sigmas"], 0.05);
   EXPECT_LT(summary["residuals_of_poses"]["ray_sigmas"], 1);
   EXPECT_LT(summary["score"]["rotation_worst_deg"], 5);  // aligned by places on a path of a step
+  expectExplained(summary);
 }
 
 TEST_F(MapTest, PosesOfAnotherScaleThanTheDepthsAreNamed) {
@@ -145,8 +147,9 @@ TEST_F(MapTest, PosesThatAreInversesAreNamed) {
   EXPECT_THAT(named.err, HasSubstr("are inverses, camera_from_world; the score expects world_from_camera"));
   EXPECT_THAT(named.err, Not(HasSubstr("depth_unit_m")));
   EXPECT_THAT(runCommand("map -r " + at("walk") + map).err, Not(HasSubstr("inverses")));
-  EXPECT_THAT(runCommand("map -r " + at("inverse") + map + " --poses approximate").err,
-              HasSubstr("are they of this recording, world_from_camera, and in metres?"));
+  const Answer told = runCommand("map -r " + at("inverse") + map + " --poses approximate");
+  EXPECT_THAT(told.err, HasSubstr("are they of this recording, world_from_camera, and in metres?"));
+  expectExplained(nlohmann::json::parse(told.out));
 }
 
 // A walk of which all but the first frames show nothing.

@@ -1,0 +1,10 @@
+// That a page of the docs explains what the command says to programs.
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace sphc::host {
+
+// Every key, however deep, stands in docs/cli.md.
+void expectExplained(const nlohmann::json &json);
+
+}  // namespace sphc::host
