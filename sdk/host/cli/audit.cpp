@@ -122,10 +122,13 @@ bool isRun(const std::string &attack, const AuditOptions &options) {
   return options.only.empty() || std::find(options.only.begin(), options.only.end(), attack) != options.only.end();
 }
 
-// By the recording's camera, and where nothing else is said, in its folder.
+// By the recording's camera, and where nothing else is said, of the recording itself.
 RecordingOptions photosOf(const AuditOptions &options) {
   RecordingOptions photos = options.photos;
-  if (photos.folder.empty()) photos.folder = options.recording.folder;
+  if (photos.folder.empty()) {
+    photos.folder = options.recording.folder;
+    photos.poses = options.recording.poses;
+  }
   photos.calibration = options.recording.calibration;
   photos.pose_gap_ms = options.recording.pose_gap_ms;
   return photos;
@@ -153,10 +156,9 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   readTruth(options, &input);
   if (options.recording.folder.empty()) return input;
   std::vector<PointModel> frames = importFrames(options.recording, options.queries, "querying  ", console);
-  checkWorld(
-      "--recording", options.recording.folder, *input.place, frames,
-      "give the first recording of the place, whose world the ledger has, and the frames that were mapped; of "
-      "a walk that spherecloud map found the poses of, give a copy with those poses (docs/audit.md)");
+  checkWorld("--recording", options.recording.folder, *input.place, frames,
+             "give the first recording of the place, whose world the ledger has, and the frames that were mapped; "
+             "where spherecloud map found their poses, give these by --poses-from");
   if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
   for (PointModel &frame : frames) input.queries.push_back(std::move(frame.points));
   if (options.has_photos)

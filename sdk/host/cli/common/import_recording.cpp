@@ -4,7 +4,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "host/base/shell_word.h"
 #include "host/cli/common/progress.h"
 #include "host/import/rgbd_import.h"
 
@@ -50,10 +49,8 @@ std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t
   if (models.empty())
     throw std::runtime_error(
         "no frame of " + recording.folder +
-        " has both images and a pose; audit is of a recording with poses. Where spherecloud map found them, "
-        "put its --trajectory into a copy: spherecloud convert " +
-        shellWord(recording.folder) +
-        " posed, then cp walk.tum posed/groundtruth.txt, and give posed as the recording");
+        " has both images and a pose; audit is of recordings with poses. Where spherecloud map found them, "
+        "give its --trajectory by --poses-from, or that of --photos as groundtruth.txt in their folder");
   return models;
 }
 

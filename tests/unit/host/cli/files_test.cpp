@@ -352,6 +352,20 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
               HasSubstr("--photos: cannot open the recording: " + at("walk") + ": first 9 chooses no frame"));
 }
 
+// Photos of the recording itself have its poses, wherever these come from.
+TEST_F(FilesTest, AnAuditTakesTheToldPosesForPhotosToo) {
+  fs::copy(at("walk"), at("unposed"), fs::copy_options::recursive);
+  fs::remove(at("unposed/groundtruth.txt"));
+  const Answer audited = runCommand("audit " + at("room.sphc") + " --truth " + at("spherecloud.ledger") +
+                                    " --only photos --json --recording " + at("unposed") +
+                                    " --last 1 --photos-first 2 --poses-from " + at("walk/groundtruth.txt"));
+  EXPECT_EQ(audited.exit_code, kExitAuditIncomplete) << audited.err;
+  for (const auto &figure : nlohmann::json::parse(audited.out)["figures"])
+    if (figure["name"] == "photos.share_of_real") {
+      EXPECT_GT(figure["value"], 0);
+    }
+}
+
 TEST_F(FilesTest, AuditReplacesAnotherTableByForceAndAnEmptyOneAnyway) {
   put("empty.csv", "");
   put("others.csv", "name,age\n");

@@ -33,15 +33,12 @@ TEST(ImportFrames, SaysHowAWalkWithoutPosesGetsThem) {
   const test::TempFolder folder;
   RecordingOptions walk;
   walk.folder = folder / "walk";
-  const std::string poses = walk.folder + "/groundtruth.txt", found = folder / "walk.tum", posed = folder / "posed";
+  const std::string found = folder / "walk.tum";
   ASSERT_EQ(runCommand("simulate --frames 2 --rate 2 --out " + walk.folder).exit_code, 0);
-  std::filesystem::rename(poses, found);
+  std::filesystem::rename(walk.folder + "/groundtruth.txt", found);
   EXPECT_THAT([&] { importFrames(walk, 2, "querying", Console()); },
-              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
-                  "spherecloud convert " + walk.folder + " posed, then cp walk.tum posed/groundtruth.txt")));
-  ASSERT_EQ(runCommand("convert " + walk.folder + " " + posed).exit_code, 0);
-  std::filesystem::copy(found, posed + "/groundtruth.txt", std::filesystem::copy_options::overwrite_existing);
-  walk.folder = posed;
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("its --trajectory by --poses-from")));
+  walk.poses = found;
   EXPECT_EQ(importFrames(walk, 2, "querying", Console()).size(), 2u);
 }
 
