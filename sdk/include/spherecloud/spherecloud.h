@@ -38,8 +38,8 @@
  * and zero what you do not set.  A program may be built with an older header than its library, whose new fields
  * then have their defaults, or with a newer one, of which what the library does not know must be zero:
  * SPHC_E_UNSUPPORTED otherwise, as where a reserved field is not zero.  Results come back as far as the caller's
- * struct goes, zeroes in what the library does not know.  Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image,
- * sphc_memory, sphc_memory_piece, sphc_depth_bias, sphc_keypoint) never change.
+ * struct goes, zeroes in what the library does not know.  Atoms (sphc_message, sphc_rigid, sphc_camera, sphc_rig,
+ * sphc_image, sphc_memory, sphc_memory_piece, sphc_depth_bias, sphc_keypoint) never change.
  *
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
