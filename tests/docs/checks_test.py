@@ -13,6 +13,7 @@ from pathlib import Path
 
 import check_code
 import check_commands
+import check_figures
 import check_scripts
 import check_links
 import check_words
@@ -225,6 +226,15 @@ class Checks(unittest.TestCase):
         stack = self.root / "tests" / "memory" / "stack.csv"
         stack.write_text(stack.read_text().replace("sphc_map_init,", "sphc_map_init,9"), encoding="utf-8")
         self.assertNotEqual(make_results.page(self.root), make_results.page(ROOT))
+
+    def test_a_quoted_figure_that_moved(self):
+        for page, quotes in check_figures.QUOTES.items():
+            for name in (f"docs/{page}", *(f"tests/pipeline/{quote.__name__}.csv" for quote in quotes)):
+                self.write(name, (ROOT / name).read_text(encoding="utf-8"))
+        self.assertEqual(check_figures.faults_of(self.root), [])
+        ledger = self.root / "tests" / "pipeline" / "late_depth.csv"
+        ledger.write_text(ledger.read_text(encoding="utf-8").replace(",240,233,", ",240,234,"), encoding="utf-8")
+        self.assert_fault(check_figures.faults_of(self.root), 'capture.md: no row "33 ms | none (single) | 234 | 228 |')
 
     def bindings(self):
         """What the table of the README is made of, and a README that has a place for it."""

@@ -4,7 +4,8 @@
     make_results.py ROOT            writes the page
     make_results.py ROOT --check    compares it with the page that is there
 
-Figures stand in the CSV files and on this page, and on no other: pages of methods link to its sections.
+All figures stand in the CSV files and on this page.  Pages of methods link to its sections; tables that they quote of it are compared
+by check_figures.py.
 """
 import csv
 import sys
