@@ -282,8 +282,8 @@ class Localizer:
         return Result(raw)
 
     def predict(self, time_ns: int) -> Prediction:
-        """The pose at a time, in the time of frames: after the last frame, or up to 100 ms before it.
-        prediction.known says whether there is one."""
+        """The pose at a time, in the time of frames: up to a second after the last pose, or up to 100 ms before it (where
+        odometry goes on from it: before the last frame). prediction.known says whether there is one."""
         raw, at = _interface.sphc_localizer_prediction.from_buffer_copy(self._no_prediction), nanoseconds(time_ns, "time_ns")
         with self._locating:
             self._answer(self._c.sphc_localizer_predict(self._alive().pointer, at, raw), "sphc_localizer_predict")

@@ -37,7 +37,8 @@ pub struct Config<'a> {
     /// Depth around which the bias turns: true z = z + offset + slope (z - mid). 0: the geometric mean of
     /// `depth_min_m` and `depth_max_m`.
     pub depth_mid_m: f64,
-    /// 1 sigma of the bias' offset before the first frame; 0: there is no bias, and nothing is learnt.
+    /// 1 sigma of the bias' offset before the first frame; this and the slope's 0: there is no bias, and nothing is
+    /// learnt. One of them alone is refused.
     pub depth_offset_sigma_m: f64,
     /// 1 sigma of the bias' slope before the first frame.
     pub depth_slope_sigma: f64,

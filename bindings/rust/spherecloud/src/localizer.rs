@@ -202,7 +202,8 @@ impl<'a> Localizer<'a> {
         crate::split::split(self)
     }
 
-    /// Where the camera is at `time_ns`, in the time of frames: after the last frame, or up to 100 ms before it.
+    /// Where the camera is at `time_ns`, in the time of frames: after the last pose, or up to 100 ms before it (where
+    /// odometry goes on from it: before the last frame).
     /// `None`: there is no pose within the second before, or the mode is [`Mode::Single`](crate::Mode::Single).
     pub fn predict(&self, time_ns: i64) -> Result<Option<Prediction>> {
         // SAFETY: all zero is a value of it. [exclusive], for it is not Sync.

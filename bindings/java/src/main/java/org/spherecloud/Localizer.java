@@ -200,8 +200,8 @@ public final class Localizer implements AutoCloseable {
   }
 
   /**
-   * Where the camera is at a time of the caller's, in the time of frames: after the last frame, or up to 100 ms before
-   * it.  False: it is not known.  Makes no garbage.
+   * Where the camera is at a time of the caller's, in the time of frames: up to a second after the last pose, or up to
+   * 100 ms before it (where odometry goes on from it: before the last frame).  False: it is not known.  Makes no garbage.
    */
   public boolean predict(long timeNs, Prediction prediction) {
     Objects.requireNonNull(prediction, "prediction");
