@@ -4,7 +4,8 @@
 
 namespace sphc::host {
 
-// Every key, however deep, stands in docs/cli.md.
+// Every key, however deep, stands in docs/cli.md, and so does every name by which outcomes, faults and hints are
+// counted.
 void expectExplained(const nlohmann::json &json);
 
 }  // namespace sphc::host
