@@ -947,8 +947,8 @@ class Interface:
         # the size is none that the struct ever had. [pure]
         self.sphc_aligner_config_init = bound("sphc_aligner_config_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_aligner_config), ctypes.c_size_t])
-        # What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel
-        # of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure]
+        # What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image (2 where its
+        # camera is a PINHOLE) and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure]
         self.sphc_aligner_memory = bound("sphc_aligner_memory", ctypes.c_int32, [
             ctypes.POINTER(sphc_aligner_config), ctypes.POINTER(sphc_memory), ctypes.POINTER(sphc_message)])
         # Makes an aligner in caller memory, borrowed until sphc_aligner_fini; `config` is copied. Computes a ray

@@ -419,8 +419,8 @@ typedef struct sphc_aligner sphc_aligner;
 /* Defaults: those of sphc_localizer_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the
  * size is none that the struct ever had. [pure] */
 SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
-/* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
- * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+/* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image (2 where its camera
+ * is a PINHOLE) and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *memory,
                                          sphc_message *message);
 /* Upper bound of its state_bytes for any library of this ABI, for memory that is not asked for. */

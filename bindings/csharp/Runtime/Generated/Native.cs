@@ -382,7 +382,7 @@ internal static unsafe class Native {
   internal static extern Status sphc_aligner_config_init(sphc_aligner_config* config, UIntPtr struct_size);
 
   /// <summary>[pure] What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image
-  /// and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE.</summary>
+  /// (2 where its camera is a PINHOLE) and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_aligner_memory(sphc_aligner_config* config, sphc_memory* memory, sphc_message* message);
 

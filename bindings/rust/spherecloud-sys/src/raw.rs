@@ -1073,8 +1073,9 @@ extern "C" {
     /// SPHC_E_STRUCT_SIZE when the size is none that the struct ever had. Thread class: pure.
     pub fn sphc_aligner_config_init(config: *mut sphc_aligner_config, struct_size: usize) -> sphc_status;
 
-    /// What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a
-    /// pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. Thread class: pure.
+    /// What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image (2 where
+    /// its camera is a PINHOLE) and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. Thread
+    /// class: pure.
     pub fn sphc_aligner_memory(config: *const sphc_aligner_config, memory: *mut sphc_memory, message: *mut sphc_message) -> sphc_status;
 
     /// Makes an aligner in caller memory, borrowed until sphc_aligner_fini; config is copied. Computes a

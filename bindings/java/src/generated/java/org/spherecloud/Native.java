@@ -149,8 +149,8 @@ final class Native {
   static native int alignerConfigInit(long config, long structSize);
 
   /**
-   * What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of
-   * the colour image. Errors: ARGUMENT, STRUCT_SIZE.
+   * What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image (2 where its camera
+   * is a PINHOLE) and 8 a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE.
    */
   static native int alignerMemory(long config, long memory, long message);
 
