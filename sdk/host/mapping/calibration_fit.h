@@ -22,8 +22,8 @@ struct CalibrationFit {
 // Reads and maps the walk again and again, until it agrees no better.  Found are focal length and principal point
 // of the colour camera and, where depth does not lie on the colour image, how color_from_depth turns and shifts
 // across the optical axis; distortion and the depth camera's own lens stay.  What is free and changed in `mapping`
-// is set here.  A calibration with which no two frames agree is worse than the one before it.  Throws as `read` does,
-// and as mapWalk does of the given calibration.
+// is set here.  A calibration with which no two frames agree is worse than the one before it.  Throws as `read`
+// does, and as mapWalk does of the given calibration.
 CalibrationFit fitCalibration(const sphc_rig &given, const ReadTrial &read, const MappingOptions &mapping,
                               const MappingProgress &progress);
 
