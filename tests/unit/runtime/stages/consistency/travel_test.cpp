@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runtime/base/elementary.h"
+#include "tests/support/random_numbers.h"
 
 namespace sphc {
 namespace {
@@ -47,6 +47,21 @@ TEST(Travel, WhoStandsStillIsNotScaled) {
   }
   EXPECT_FALSE(still.isScaled());
   EXPECT_FALSE(shaken.isScaled()) << "poses are off by their sigma";
+}
+
+// A head that holds still, by odometry that wanders as it says: 2 cm a step lead metres away.
+TEST(Travel, WhoStandsStillIsNotScaledByWhatOdometryIsOff) {
+  for (const double step_m : {0.002, 0.005, 0.02}) {
+    Random random(1);
+    Travel still;
+    Vector3 odometry_m = Vector3::Zero();
+    for (int i = 0; i < 300; ++i) {
+      odometry_m += step_m * test::normalVector(&random);
+      still.add(0.001 * test::normalVector(&random), odometry_m, kSigmaM, step_m * step_m);
+      EXPECT_FALSE(still.isScaled()) << step_m << " after " << i;
+    }
+  }
+  EXPECT_TRUE(walked(0.2, 2, 30, 0.02).isScaled()) << "a way that is more than that";
 }
 
 TEST(Travel, ForgetsWhatLiesFarBack) {
