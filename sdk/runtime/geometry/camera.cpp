@@ -173,11 +173,13 @@ bool Camera::undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) cons
   if (target < 1e-12) return *ray = distorted, true;
   double low = 0, high = atan2Of(sqrtOf(max_radius2_), 1), theta = target < high ? target : high;
   if (kannalaBrandt(parameters_.params + 4, high) < target) return false;
-  for (int i = 0; i < 40; ++i) {  // Newton, kept inside the shrinking bracket
+  // Newton, kept inside the shrinking bracket; halves it where that goes to and fro between its ends.
+  constexpr int kNewtonSteps = 20, kHalvings = 52;
+  for (int i = 0; i < kNewtonSteps + kHalvings; ++i) {
     const double error = kannalaBrandt(parameters_.params + 4, theta) - target;
     (error > 0 ? high : low) = theta;
     double next = theta - error / kannalaBrandtDerivative(parameters_.params + 4, theta);
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (i >= kNewtonSteps || !(next >= low && next <= high)) next = 0.5 * (low + high);
     if (absOf(next - theta) < 1e-15) break;
     theta = next;
   }

@@ -61,6 +61,19 @@ TEST(Camera, PixelToRayToPixel) {
   }
 }
 
+// Newton's steps of some radii go to and fro between two angles, here at 81 degrees.
+TEST(Camera, EveryRadiusOfAFisheyeHasItsRay) {
+  const Camera camera(
+      sphc_camera{SPHC_CAMERA_KANNALA_BRANDT4, 640, 480, 8, {180, 180, 320, 240, 0.2, -0.1, 0.05, -0.02}});
+  for (int i = 0; i <= 20000; ++i) {
+    const Vector2 at(320 + 255.45 + 4e-6 * i, 240);
+    Vector2 ray, pixel;
+    ASSERT_TRUE(camera.unproject(at, &ray));
+    ASSERT_TRUE(camera.project({ray.x(), ray.y(), 1}, &pixel));
+    ASSERT_LT((pixel - at).norm(), 1e-6) << at.x();
+  }
+}
+
 TEST(Camera, PointToPixelToRay) {
   Random random(7);
   for (const Named &c : cameras()) {
