@@ -100,6 +100,23 @@ TEST(CInterfaceRigid, WhatIsNotFiniteStaysSo) {
   }
 }
 
+TEST(CInterfaceRigid, QuaternionsOfAnyLengthAreNormalised) {
+  const double x[3] = {1, 0, 0};
+  for (const double length : {5e-324, 1e-310, 1e-170, 1e-3, 1e3, 1e160, 1e308}) {
+    const sphc_rigid quarter_turn = {{length, 0, 0, length}, {0, 0, 0}};
+    sphc_rigid half_turn;
+    double moved[3];
+    sphc_rigid_compose(&quarter_turn, &quarter_turn, &half_turn);
+    sphc_rigid_apply(&quarter_turn, x, moved);
+    EXPECT_NEAR(half_turn.q_wxyz[3], 1, 1e-12) << length;
+    EXPECT_NEAR(moved[1], 1, 1e-12) << length;
+  }
+  const sphc_rigid zeros = {{0, 0, 0, 0}, {0, 0, 0}};
+  double moved[3];
+  sphc_rigid_apply(&zeros, x, moved);
+  EXPECT_EQ(moved[0], 1);
+}
+
 TEST(CInterfaceRigid, OutputMayBeAnInput) {
   const sphc_rigid a = {{0.8, 0.6, 0, 0}, {1, 2, 3}}, b = {{0.6, 0, -0.8, 0}, {-1, 0.5, 2}};
   sphc_rigid ab, inverse, identity;

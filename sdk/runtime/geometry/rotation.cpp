@@ -2,9 +2,29 @@
 
 namespace sphc {
 
+namespace {
+
+constexpr double kLeastSquare = 1e-200, kMostSquare = 1e200;
+
+// Of numbers whose squares vanish or overflow, or are none: as numbers of ordinary size.
+Matrix3 rotationFromExtreme(const double q_wxyz[4]) {
+  double largest = 0, sum = 0, scaled[4];
+  for (int i = 0; i < 4; ++i) {
+    const double size = absOf(q_wxyz[i]);
+    largest = size > largest ? size : largest;
+    sum += 0 * size;  // not 0 where one is no number, or infinite
+  }
+  if (sum != 0) return Matrix3::Constant(sum);
+  if (largest == 0) return Matrix3::Identity();
+  for (int i = 0; i < 4; ++i) scaled[i] = q_wxyz[i] / largest;
+  return rotationFromQuaternion(scaled);
+}
+
+}  // namespace
+
 Matrix3 rotationFromQuaternion(const double q_wxyz[4]) {
   const double n = q_wxyz[0] * q_wxyz[0] + q_wxyz[1] * q_wxyz[1] + q_wxyz[2] * q_wxyz[2] + q_wxyz[3] * q_wxyz[3];
-  if (n == 0) return Matrix3::Identity();
+  if (!(n >= kLeastSquare && n <= kMostSquare)) return rotationFromExtreme(q_wxyz);
   const double s = 2 / n, w = q_wxyz[0], x = q_wxyz[1], y = q_wxyz[2], z = q_wxyz[3];
   Matrix3 r;
   r << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
