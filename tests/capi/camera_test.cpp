@@ -37,6 +37,18 @@ TEST(CInterfaceCamera, ProjectAndBack) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(bearing[i], point[i] / norm, 1e-12);
 }
 
+// Their sum is not finite, and each of them is.
+TEST(CInterfaceCamera, NumbersMayBeAsLargeAsThereAre) {
+  const sphc_camera camera = sphc::test::pinhole(640, 480, 500);
+  const double far[3] = {1e308, -5e307, 1e308}, aside[3] = {1e308, 1e308, 1}, far_pixel[2] = {1.7e308, 1.7e308};
+  double pixel[2], bearing[3];
+  ASSERT_EQ(sphc_camera_project(&camera, far, pixel), SPHC_OK);
+  EXPECT_DOUBLE_EQ(pixel[0], 320 + 500);
+  EXPECT_DOUBLE_EQ(pixel[1], 240 - 250);
+  EXPECT_EQ(sphc_camera_project(&camera, aside, pixel), SPHC_OUTSIDE);
+  EXPECT_EQ(sphc_camera_unproject(&camera, far_pixel, bearing), SPHC_OUTSIDE);
+}
+
 TEST(CInterfaceCamera, FailureLeavesOutputsUntouched) {
   const sphc_camera good = sphc::test::pinhole(640, 480, 500);
   sphc_camera bad = good;

@@ -20,7 +20,7 @@ sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[
   if (!camera || !point_m || !pixel_px || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
   const Vector3 point(point_m[0], point_m[1], point_m[2]);
   Vector2 pixel;
-  if (!sphc::isFinite(point.sum())) return SPHC_E_ARGUMENT;
+  if (!point.allFinite()) return SPHC_E_ARGUMENT;
   if (!Camera(*camera).project(point, &pixel)) return SPHC_OUTSIDE;
   pixel_px[0] = pixel.x();
   pixel_px[1] = pixel.y();
@@ -31,7 +31,7 @@ sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_
   if (!camera || !pixel_px || !bearing || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
   const Vector2 pixel(pixel_px[0], pixel_px[1]);
   Vector2 ray;
-  if (!sphc::isFinite(pixel.sum())) return SPHC_E_ARGUMENT;
+  if (!pixel.allFinite()) return SPHC_E_ARGUMENT;
   if (!Camera(*camera).unproject(pixel, &ray)) return SPHC_OUTSIDE;
   const Vector3 unit = Vector3(ray.x(), ray.y(), 1).normalized();
   for (int i = 0; i < 3; ++i) bearing[i] = unit[i];
