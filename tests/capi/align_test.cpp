@@ -72,6 +72,27 @@ TEST_F(CInterfaceAligner, AlignsIntoStridedImages) {
   EXPECT_EQ(aligner_, nullptr);
 }
 
+// The farthest that 16 bits of the unit hold is not what lies beyond it.
+TEST_F(CInterfaceAligner, MetresBeyondTheLargestRangeAreHoles) {
+  config_.depth_format = SPHC_FORMAT_DEPTH_F32;
+  config_.rig.depth_unit_m = 1.0 / 8192;
+  config_.depth_max_m = 65535 * config_.rig.depth_unit_m;
+  config_.aligned_unit_m = 0.001;
+  sphc_memory need = {};
+  ASSERT_EQ(sphc_aligner_memory(&config_, &need, &message_), SPHC_OK) << message_.text;
+  bytes_ = need.state_bytes;
+  memory_ = GuardedMemory(bytes_, need.alignment);
+  ASSERT_EQ(init(), SPHC_OK) << message_.text;
+  for (const float metres : {7.9f, 8.1f, 1000.0f}) {
+    const std::vector<float> raw(40 * 30, metres);
+    std::vector<uint16_t> depth(kWidth * kHeight, 7);
+    const sphc_image image = {raw.data(), 40, 30, 160, SPHC_FORMAT_DEPTH_F32};
+    const sphc_aligned aligned = {sizeof aligned, 2 * kWidth, 0, 0, depth.data(), nullptr, nullptr};
+    ASSERT_EQ(sphc_aligner_process(aligner_, &image, &aligned), SPHC_OK);
+    EXPECT_EQ(depth[kHeight / 2 * kWidth + kWidth / 2], metres < 8 ? 7900 : 0) << metres;
+  }
+}
+
 TEST_F(CInterfaceAligner, EachOutputMayBeNull) {
   ASSERT_EQ(init(), SPHC_OK);
   const sphc_image raw = image();

@@ -114,6 +114,22 @@ class CInterfaceFormats : public testing::Test {
   std::string message_;
 };
 
+// The farthest that 16 bits of the unit hold is not what lies beyond it.
+TEST_F(CInterfaceFormats, MetresBeyondTheLargestRangeAreNoMeasurement) {
+  config_.rig.depth_camera = config_.rig.color_camera;
+  config_.rig.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
+  config_.rig.depth_unit_m = 1.0 / 8192;
+  config_.depth_max_m = 65535 * config_.rig.depth_unit_m;
+  made_ = sphc::test::sceneFrame(config_, kViewpoint);
+  const std::vector<float> inside(made_->images.gray.size(), 7.9f), beyond(made_->images.gray.size(), 1000.0f);
+  setDepth(inside.data(), SPHC_FORMAT_DEPTH_F32);
+  EXPECT_GT(localize(SPHC_NOT_LOCALIZED).lifted, 100u);
+  setDepth(beyond.data(), SPHC_FORMAT_DEPTH_F32);
+  const sphc_localizer_result result = localize(SPHC_NOT_LOCALIZED);
+  EXPECT_EQ(result.lifted, 0u);
+  EXPECT_TRUE(result.faults & SPHC_FAULT_DEPTH_RANGE);
+}
+
 TEST_F(CInterfaceFormats, TheSameLumaGivesTheSameBytes) {
   const sphc_localizer_result expected = localize();
   for (const Encoding &encoding : kEncodings) {

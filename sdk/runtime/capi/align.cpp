@@ -25,8 +25,9 @@ DenseConfig denseConfig(const sphc_aligner_config &config) {
   dense.color = sphc::Camera(config.rig.color_camera);
   dense.depth = sphc::Camera(config.rig.depth_camera);
   dense.color_from_depth = sphc::rigidFromC(config.rig.color_from_depth);
-  dense.sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
-                  config.depth_sigma_per_m2};
+  dense.sensor =
+      sphc::sensorReadAs(config.depth_format, {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m,
+                                               config.depth_sigma_m, config.depth_sigma_per_m2});
   dense.out_unit_m = config.aligned_unit_m > 0 ? config.aligned_unit_m : config.rig.depth_unit_m;
   return dense;
 }

@@ -60,9 +60,12 @@ FurtherView viewFrom(const sphc_localizer_view &view) {
 }
 
 RigDepthCamera depthCameraFrom(const sphc_localizer_depth_camera &camera) {
-  return {Camera(camera.camera),   rigidFromC(camera.color_from_depth),
-          depthSensorFrom(camera), depthLayoutFrom(camera.format),
-          camera.amplitude_min,    Vector2(camera.offset_sigma_m, camera.slope_sigma)};
+  return {Camera(camera.camera),
+          rigidFromC(camera.color_from_depth),
+          sensorReadAs(camera.format, depthSensorFrom(camera)),
+          depthLayoutFrom(camera.format),
+          camera.amplitude_min,
+          Vector2(camera.offset_sigma_m, camera.slope_sigma)};
 }
 
 DepthView depthViewFrom(const sphc_image &depth, const sphc_image &amplitude, int64_t time_ns,
@@ -98,6 +101,13 @@ DepthSensor depthSensorFrom(const sphc_localizer_depth_camera &c) {
   return {c.unit_m, c.min_m, c.max_m, c.sigma_m, c.sigma_per_m2};
 }
 
+// Metres beyond 16 bits of units become 65535 of them, which so is farther than what counts.
+DepthSensor sensorReadAs(sphc_format format, DepthSensor sensor) {
+  if (depthLayoutFrom(format).kind == DepthLayout::kMetres)
+    sensor.max_m = std::min(sensor.max_m, 65534.5 * sensor.unit_m);
+  return sensor;
+}
+
 DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth) {
   DepthCalibration own;
   own.mid_m = depth.mid_m;
@@ -120,8 +130,9 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
     own.further.push({Camera(config.cameras[i].camera), rigidFromC(config.cameras[i].color_from_camera),
                       signedSeconds(config.cameras[i].row_time_ns)});
   own.color_row_time_s = signedSeconds(config.color_row_time_ns);
-  own.depth.push({Camera(config.rig.depth_camera), rigidFromC(config.rig.color_from_depth), depthSensorFrom(config),
-                  depthLayoutFrom(config.depth_format), config.amplitude_min});
+  own.depth.push({Camera(config.rig.depth_camera), rigidFromC(config.rig.color_from_depth),
+                  sensorReadAs(config.depth_format, depthSensorFrom(config)), depthLayoutFrom(config.depth_format),
+                  config.amplitude_min});
   for (uint32_t i = 0; i < config.depth_camera_count; ++i) own.depth.push(depthCameraFrom(config.depth_cameras[i]));
   own.depth_prior = depthPriorFrom(config);
   own.pixel_sigma_px = config.pixel_sigma_px;

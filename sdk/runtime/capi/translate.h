@@ -24,6 +24,8 @@ sphc_localizer_observation observationFrom(const Observation &observation);
 sphc_localizer_hypothesis hypothesisFrom(const RankedPose &pose);
 DepthSensor depthSensorFrom(const sphc_localizer_config &config);
 DepthSensor depthSensorFrom(const sphc_localizer_depth_camera &camera);
+// The same as the stages see it, by images that were read from this format.
+DepthSensor sensorReadAs(sphc_format format, DepthSensor sensor);
 DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth);
 // `frame` is the one that was answered.
 sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame);
