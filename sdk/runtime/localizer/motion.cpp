@@ -25,6 +25,26 @@ Unknown unknownOf(double ahead_s, double step_s, double most_rate, double accele
   return {0.5 * acceleration * absOf(ahead_s * (ahead_s + step_s)), acceleration * absOf(ahead_s + 0.5 * step_s)};
 }
 
+// What errors of turn and shift have in common so many steps after a pose (before it: fewer than 0), over what they
+// have there.  Before it they are mixed with those of the pose before, turn and shift by other shares.
+double commonOf(double steps, const Step &step) {
+  const double turn = steps * step.turn_gain, shift = steps * step.shift_gain;
+  return std::max(0.0, (1 + turn) * (1 + shift) + turn * shift);
+}
+
+// Of a pose and a step by poses, so many steps before the pose.
+Matrix6 covarianceBefore(double steps, const Matrix6 &of_pose, const Step &step) {
+  const double of_step = steps * (steps + 2 * step.share_in_pose);
+  // Where the errors of two poses mean out, they do so by as much along every axis: else no covariance is left.
+  const double least = 2 * std::min(step.turn_gain, step.shift_gain);
+  Matrix6 covariance = of_pose + of_step * (of_step < 0 ? Matrix6(least * of_pose) : step.covariance);
+  const double common = 1 + of_step * (of_step < 0 ? least : 2 * sqrtOf(step.turn_gain * step.shift_gain));
+  const double kept = std::min(1.0, commonOf(steps, step) / common);
+  covariance.topRightCorner<3, 3>() *= kept;
+  covariance.bottomLeftCorner<3, 3>() *= kept;
+  return covariance;
+}
+
 }  // namespace
 
 Matrix6 diagonalOf(double rotation_sigma_rad, double translation_sigma_m) {
@@ -80,12 +100,8 @@ Step Trail::step(uint32_t steps) const {
   }
   Vector6 shares;
   shares << Vector3::Constant(sqrtOf(2 * turn.gain)), Vector3::Constant(sqrtOf(2 * shift.gain));
-  return {dt,
-          dt * turn.a_second,
-          dt * shift.a_second,
-          shares.asDiagonal() * covariance() * shares.asDiagonal(),
-          0.5,
-          2 * std::min(turn.gain, shift.gain)};
+  return {dt,  dt * turn.a_second, dt * shift.a_second, shares.asDiagonal() * covariance() * shares.asDiagonal(),
+          0.5, turn.gain,          shift.gain};
 }
 
 bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
@@ -109,12 +125,11 @@ bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
 
   const Unknown turn = unknownOf(ahead_s, step.seconds, kTurnRate, kTurnAcceleration),
                 shift = unknownOf(ahead_s, step.seconds, kSpeed, kAcceleration);
-  const double of_step = steps * (steps + 2 * step.share_in_pose);
-  // Where the errors of two poses mean out, they do so by as much along every axis: else no covariance is left.
-  const bool means_out = of_step < 0 && step.least_of_pose > 0;
-  const Matrix6 by_step = means_out ? Matrix6(step.least_of_pose * motion.covariance) : step.covariance;
-  moved->covariance =
-      carried(motion.covariance + of_step * by_step, {turned, Vector3::Zero()}) + diagonalOf(turn.way, shift.way);
+  const bool is_between = before && step.turn_gain > 0;
+  const Matrix6 covariance =
+      is_between ? covarianceBefore(steps, motion.covariance, step)
+                 : Matrix6(motion.covariance + steps * (steps + 2 * step.share_in_pose) * step.covariance);
+  moved->covariance = carried(covariance, {turned, Vector3::Zero()}) + diagonalOf(turn.way, shift.way);
   moved->angular_velocity_sigma_rad_s = hypotOf(turn.rate, steps_per_s * axisSigma(step.covariance, 0));
   moved->velocity_sigma_m_s = hypotOf(shift.rate, steps_per_s * axisSigma(step.covariance, 3));
   return true;

@@ -22,7 +22,9 @@ struct Step {
   Matrix6 covariance = Matrix6::Zero();  // as that of a result
   // Covariance of the errors of this step and of the pose it led to, over that of this step.
   double share_in_pose = 0;
-  double least_of_pose = 0;  // so much of the pose's covariance is in that of this step, along every axis
+  // Of steps between poses: by how much the last pose counts in the rates, so that twice as much of its covariance
+  // is in that of this step.
+  double turn_gain = 0, shift_gain = 0;
 };
 
 // The last poses, of one map or several, as they were found.
