@@ -29,9 +29,10 @@ struct BetweenImages {
     shift_sigma_of_rows_m = std::max(shift_sigma_of_rows_m, aboutTheCamera(way));
   }
   // An image so far in time from colour, of which nothing tells the way.
-  void addUnknown(double seconds) {
-    apart_s = std::max(apart_s, std::min(seconds, tuning::kMostApartS));
-    widen(tuning::kTurnApart * apart_s, tuning::kSpeedApart * apart_s);
+  void addUnknown(double seconds, double turn_rad_s = tuning::kTurnApart) {
+    const double own_s = std::min(seconds, tuning::kMostApartS);
+    apart_s = std::max(apart_s, own_s);
+    widen(turn_rad_s * own_s, tuning::kSpeedApart * own_s);
   }
   // Other images of the same frame.
   void add(const BetweenImages &other) {

@@ -8,11 +8,12 @@ class WayToColor {
  public:
   WayToColor(int64_t color_time_ns, const Tracker *tracker) : color_time_ns_(color_time_ns), tracker_(tracker) {}
 
-  // Where a sensor stood at the time of the colour image; `between` learns of the way there.
-  Rigid place(int64_t time_ns, const Rigid &color_from_sensor, BetweenImages *between) const {
+  // Where a sensor stood at the time of the colour image; `between` learns of the way there.  `turn_rad_s` is what
+  // is not known of a turn where nothing tells it.
+  Rigid place(int64_t time_ns, const Rigid &color_from_sensor, double turn_rad_s, BetweenImages *between) const {
     Way way;
     if (time_ns != color_time_ns_ && !(tracker_ && tracker_->waySince(time_ns, &way))) {
-      between->addUnknown(secondsOf(apartNs(color_time_ns_, time_ns)));
+      between->addUnknown(secondsOf(apartNs(color_time_ns_, time_ns)), turn_rad_s);
       return color_from_sensor;
     }
     between->add(way);
@@ -46,7 +47,7 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, Se
     const RigCamera &known = config.further[i];
     rig.cameras.further.push({view.camera.value_or(known.camera),
                               way.place(view.time_ns, view.color_from_camera.value_or(known.color_from_camera),
-                                        seen & seenBit(i) ? &rig.between : &unused),
+                                        tuning::kTurnRate, seen & seenBit(i) ? &rig.between : &unused),
                               known.row_time_s});
     if (seen & seenBit(i))
       rig.between.addRows(unknownOfRows(rig.cameras.further[i].camera, known.row_time_s, rate));
@@ -55,7 +56,8 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, Se
     const DepthView &view = frame.depth[i];
     const RigDepthCamera &known = config.depth[i];
     BetweenImages between;
-    const Rigid place = way.place(view.time_ns, view.color_from_depth.value_or(known.color_from_depth), &between);
+    const Rigid place = way.place(view.time_ns, view.color_from_depth.value_or(known.color_from_depth),
+                                  tuning::kTurnApart, &between);
     rig.cameras.depth.push({view.camera.value_or(known.camera), place});
     if (view.depth.data) rig.between.add(between);
     if (i == 0) rig.between_first_depth = between;

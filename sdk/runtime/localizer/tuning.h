@@ -240,8 +240,9 @@ constexpr uint64_t kNearNs = 100000000;                              // beside a
 constexpr uint64_t kReachNs = 500000000;  // so long before a frame an image of it may be taken; odometry drifts
 constexpr double kGateSigmas = 5;         // within which two poses agree
 // Images of different times that nothing brings together: the camera has moved so far meanwhile, 1 sigma an axis,
-// as people walk.  Beyond kMostTogetherS a frame teaches nothing; clocks that differ make no more of it than
-// kMostApartS.
+// as people walk; so is depth off, whose keypoints have the rays of the colour image.  Those of a further camera
+// have rays of its own, which turn with the head: kTurnRate.  Beyond kMostTogetherS a frame teaches nothing; clocks
+// that differ make no more of it than kMostApartS.
 constexpr double kSpeedApart = 0.35, kTurnApart = 0.08;     // m / s, rad / s
 constexpr double kMostTogetherS = 0.05, kMostApartS = 1.0;  // s
 // A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.

@@ -57,6 +57,19 @@ TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
   EXPECT_FALSE(rig.cameras.teaches);
 }
 
+// Depth goes along the rays of the colour image; a view has rays of its own.
+TEST(RigOfFrame, AViewTurnsWithTheHead) {
+  FrameInput of_depth = frameAt(10 * kStep), of_view = of_depth;
+  of_depth.depth[0].time_ns -= 20000000;
+  of_view.further[0].time_ns += 20000000;
+  const auto between = [](const FrameInput &frame) {
+    return rigOfFrame(configOfThree(), frame, seenBit(0), nullptr, {}).between;
+  };
+  EXPECT_NEAR(between(of_depth).turnSigma(), 0.02 * tuning::kTurnApart, 1e-12);
+  EXPECT_NEAR(between(of_view).turnSigma(), 0.02 * tuning::kTurnRate, 1e-12);
+  EXPECT_EQ(between(of_view).shiftSigma(), between(of_depth).shiftSigma());
+}
+
 TEST(RigOfFrame, AnImageThatIsNotThereDoesNotCount) {
   FrameInput frame = frameAt(10 * kStep);
   frame.further[0].time_ns = 0;
