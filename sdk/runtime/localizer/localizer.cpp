@@ -125,6 +125,7 @@ LocalizerResult Localizer::locate(const FrameInput &frame, const FrameFeatures &
 // Brings what earlier frames told to the time of this one.
 void Localizer::follow(const FrameInput &frame) {
   if (!config_.tracks) return;
+  odometry_.advance(frame.color_time_ns);
   const bool is_believed = frame.known.has_odometry && !odometry_.disagrees();
   Odometry odometry = frame.known.odometry;
   if (travel_.wasScaled()) odometry.scale_sigma = 1;
@@ -252,7 +253,7 @@ void Localizer::checkFocalLength(const Deadline &deadline, Faults *faults, Work 
 // With what earlier frames said of odometry, of the points and of the camera.  Of every frame: what goes on from
 // frame to frame must see each step.
 void Localizer::compareWithTrack(const FrameInput &frame, Faults *faults) {
-  odometry_.look(frame.color_time_ns, frame.known, best());
+  odometry_.look(frame.known, best());
   if (odometry_.disagrees()) *faults |= kOdometryDisagrees;
   if (best().isLocalized()) doubtByTrack(frame.color_time_ns, faults);
   if (travel_.isScaled(frame.known, tracker_, best()) && !odometry_.disagrees()) *faults |= kDepthScale;

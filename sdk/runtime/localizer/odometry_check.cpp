@@ -21,12 +21,10 @@ double shiftApart(const Vector3 &by_poses, const Vector3 &by_odometry) {
 
 }  // namespace
 
-void OdometryCheck::look(int64_t time_ns, const Known &known, const Hypothesis &found) {
-  if (time_ns <= now_ns_) reset();
-  now_ns_ = time_ns;
-  if (contradictions_ > 0 && elapsedNs(contradicted_ns_, time_ns) > Tracker::kForgetCarriedNs) {
+void OdometryCheck::look(const Known &known, const Hypothesis &found) {
+  if (contradictions_ > 0 && elapsedNs(contradicted_ns_, now_ns_) > Tracker::kForgetCarriedNs) {
     --contradictions_;
-    contradicted_ns_ = time_ns;
+    contradicted_ns_ = now_ns_;
   }
   has_last_ = has_last_ && known.has_odometry;
   if (!known.has_odometry) return;
@@ -38,7 +36,7 @@ void OdometryCheck::look(int64_t time_ns, const Known &known, const Hypothesis &
   const uint32_t number = unused();
   Look &now = looks_[number];
   now.map = found.map;
-  now.time_ns = time_ns;
+  now.time_ns = now_ns_;
   now.odometry_from_map = odometry.odometry_from_camera * found.estimate.camera_from_map;
   now.centre_in_map_m = found.estimate.camera_from_map.inverse().translation_m;
   now.centre_in_odometry_m = odometry.odometry_from_camera.translation_m;

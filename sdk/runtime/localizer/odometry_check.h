@@ -16,10 +16,14 @@ class OdometryCheck {
   void forget(uint32_t map) {
     if (map == looks_[last_].map) reset();
   }
-  // Every frame; `found` is what the frame shows, before earlier ones speak against it.  A time that does not grow
-  // starts anew.
-  void look(int64_t time_ns, const Known &known, const Hypothesis &found);
-  // By the last look: is odometry not to be believed?
+  // Before each frame; a time that does not grow starts anew.
+  void advance(int64_t time_ns) {
+    if (time_ns <= now_ns_) reset();
+    now_ns_ = time_ns;
+  }
+  // After it; `found` is what the frame shows, before earlier ones speak against it.
+  void look(const Known &known, const Hypothesis &found);
+  // By the last look, and where time goes on: is odometry not to be believed?
   bool disagrees() const;
 
  private:
