@@ -204,9 +204,10 @@ bool FrontEnd::liftOne(const DepthImages &depth, uint32_t k, double *z_m) {
   double sigma_z = 0;
   Vector3 point_m;
   if (!measure(eye, depth, pixel_px, teaches_ && !is_further, &point_m, &sigma_z)) return false;
-  const double z = *z_m = point_m.z();
-  LiftedPoint lifted = {point_m, hypotOf(sigma_px * z / eye.focal_px, map_sigma_m_),
-                        hypotOf(sigma_z * point_m.norm() / z, map_sigma_m_)};
+  const double z = *z_m = point_m.z(), range = point_m.norm();
+  const double away_m = eye.view().color().isFisheye() ? range : z;
+  LiftedPoint lifted = {point_m, hypotOf(sigma_px * away_m / eye.focal_px, map_sigma_m_),
+                        hypotOf(sigma_z * range / z, map_sigma_m_)};
   if (is_further && !toColor(eye.color_from_camera, &lifted)) return false;
   lifted_[k] = lifted;
   return true;

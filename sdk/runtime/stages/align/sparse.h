@@ -44,6 +44,7 @@ class SparseAligner {
   // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera
   // has no answer: a hole, out of its view, or hidden from it behind something nearer.
   bool lift(ImageView<uint16_t> depth, const Vector2 &color_pixel_px, Vector3 *point_m, double *sigma_m) const;
+  const Camera &color() const { return color_; }
   // Colour pixel of a point in the colour camera's frame; false where it has none.
   bool project(const Vector3 &point_m, Vector2 *pixel_px) const { return color_.project(point_m, pixel_px); }
   // Unit bearing of a colour pixel; false where the camera's distortion has none.

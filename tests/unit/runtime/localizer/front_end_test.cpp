@@ -112,6 +112,27 @@ TEST_F(FrontEndTest, CoarseKeypointsArePlacedLessExactly) {
   EXPECT_TRUE(some_are_coarse);
 }
 
+// A pixel of a fisheye is an angle, whatever the angle from the axis is: at 60 degrees twice as far across as by z.
+TEST_F(FrontEndTest, APixelOfAFisheyeIsAnAngle) {
+  sphc_camera fisheye = parts_.config.color_camera.parameters();
+  fisheye.model = SPHC_CAMERA_KANNALA_BRANDT4;
+  fisheye.param_count = 8;
+  fisheye.params[0] = fisheye.params[1] = 130;
+  parts_.config.color_camera = parts_.config.depth[0].camera = Camera(fisheye);
+  parts_.config.depth[0].color_from_depth = {};
+  parts_.lift(std::vector<uint16_t>(size_t{fisheye.width} * fisheye.height, 1500));
+  double widest_rad = 0;
+  for (uint32_t i = 0; i < front().liftedCount(); ++i) {
+    const LiftedPoint &lifted = front().lifted()[i];
+    const double scale_px = static_cast<double>(front().observationOf(i).scale_px);
+    const double sigma_px = parts_.config.pixel_sigma_px * std::max(1.0, scale_px / tuning::kFineScalePx);
+    EXPECT_NEAR(lifted.sideways_m, std::hypot(sigma_px / 130 * lifted.point_m.norm(), parts_.config.map_sigma_m),
+                1e-9);
+    widest_rad = std::max(widest_rad, angleBetween(lifted.point_m, Vector3::UnitZ()));
+  }
+  EXPECT_GT(widest_rad, 1);
+}
+
 TEST_F(FrontEndTest, RaysAreUnitBearings) {
   for (uint32_t i = front().liftedCount(); i < front().keypointCount(); ++i) {
     EXPECT_NEAR(front().lifted()[i].point_m.norm(), 1, 1e-12);
