@@ -55,10 +55,9 @@ Rig::Rig(const RigOptions &options, Tell trouble)
     add(options.depth, false, true);
   }
   makePairer();
-  for (Camera &camera : cameras_) {
-    camera.device = options_.open(camera.spec, camera.wish);
-    start(&camera);
-  }
+  // What a camera sends while another one is being opened would be lost.
+  for (Camera &camera : cameras_) camera.device = options_.open(camera.spec, camera.wish);
+  for (Camera &camera : cameras_) start(&camera);
 }
 
 Rig::~Rig() {

@@ -188,6 +188,30 @@ TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
   EXPECT_GT(pairs, 0u);
 }
 
+// What a camera sends while another one is being opened is lost.
+TEST_F(RigTest, NoCameraStartsBeforeAllAreOpen) {
+  options_.color = "color";
+  options_.depth = "depth";
+  options_.both.clear();
+  std::string order;
+  struct StartTold : LostDevice {
+    explicit StartTold(std::string *order) : order_(order) {
+      source_.self = this;
+      source_.start = [](void *self) -> sphc_status {
+        *static_cast<StartTold *>(self)->order_ += "start ";
+        return SPHC_OK;
+      };
+    }
+    std::string *order_;
+  };
+  options_.open = [&](const std::string &spec, const Wish &) {
+    order += spec + " ";
+    return std::make_unique<StartTold>(&order);
+  };
+  open();
+  EXPECT_EQ(order, "color depth start start ");
+}
+
 // A camera of one stream on a clock of its own, whose frames take as long as each other to arrive.
 class SteadyDevice : public LostDevice {
  public:
