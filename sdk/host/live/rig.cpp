@@ -72,7 +72,10 @@ void Rig::add(const std::string &spec, bool color, bool depth) {
   camera.wish.color = color;
   camera.wish.depth = depth;
   camera.wish.tolerance_ms = options_.tolerance_ms;
-  if (!(color && depth)) chooseSize(&camera.wish);
+  if (!(color && depth)) {
+    chooseSize(&camera.wish);
+    camera.wish.at_once = false;  // arrivals tell how the clocks of two cameras lie to each other
+  }
   sphc_memory need = {};
   sphc_clock_mapper_memory(&need);
   camera.mapper_memory.resize(need.state_bytes / sizeof(uint64_t) + 1);

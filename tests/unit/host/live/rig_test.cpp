@@ -212,6 +212,22 @@ TEST_F(RigTest, NoCameraStartsBeforeAllAreOpen) {
   EXPECT_EQ(order, "color depth start start ");
 }
 
+// How the clocks of two lie to each other is told by when their images arrive.
+TEST_F(RigTest, OneRecordingAloneIsReadAtOnce) {
+  std::vector<bool> at_once;
+  options_.open = [&](const std::string &, const Wish &wish) {
+    at_once.push_back(wish.at_once);
+    return std::make_unique<LostDevice>();
+  };
+  options_.wish.at_once = true;
+  open();
+  EXPECT_EQ(at_once, std::vector<bool>({true}));
+  options_.color = options_.depth = options_.both;
+  options_.both.clear();
+  open();
+  EXPECT_EQ(at_once, std::vector<bool>({true, false, false}));
+}
+
 // A camera of one stream on a clock of its own, whose frames take as long as each other to arrive.
 class SteadyDevice : public LostDevice {
  public:
