@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "v4l2.h"
+
 namespace sphc::v4l2 {
 
 namespace {
@@ -14,7 +16,8 @@ constexpr int64_t kMaxPeriodNs = 60000 * kMillisecondNs;
 // uvcvideo stamps the first packet of a frame, so before stream-on is not possible; vivid's ends of frames lie up
 // to nine tenths of a period ahead, 29 ms at 30 Hz.
 constexpr int64_t kBeforeStartNs = 100 * kMillisecondNs, kFutureNs = 100 * kMillisecondNs;
-constexpr uint32_t kLeastSigmaUs = 1000;  // of any time that the host takes
+constexpr uint32_t kLeastSigmaUs = 1000;                    // of any time that the host takes
+constexpr uint32_t kMostOvertaken = SPHC_V4L2_MAX_BUFFERS;  // in a row: no more can have waited
 
 }  // namespace
 
@@ -22,6 +25,7 @@ void FrameClock::restart(int64_t now_ns, int64_t period_ns) {
   start_ns_ = no_frame_ns_ = now_ns;
   period_ns_ = period_ns > 0 ? std::min(period_ns, kMaxPeriodNs) : kUnknownPeriodNs;
   if (last_ns_ > now_ns) last_ns_ = now_ns;
+  last_own_ns_ = last_ns_;
 }
 
 FrameClock::Stamp FrameClock::ofDevice(int64_t device_time_ns, bool is_end) const {
@@ -44,19 +48,26 @@ FrameClock::Stamp FrameClock::ofArrival(int64_t arrival_ns) const {
 }
 
 bool FrameClock::isPossible(int64_t time_ns, int64_t arrival_ns) const {
-  return time_ns > last_ns_ && time_ns >= start_ns_ - kBeforeStartNs && time_ns <= arrival_ns + kFutureNs;
+  return time_ns > last_own_ns_ && time_ns >= start_ns_ - kBeforeStartNs && time_ns <= arrival_ns + kFutureNs;
 }
 
 bool FrameClock::stamp(int64_t device_time_ns, uint32_t buffer_flags, int64_t arrival_ns, Stamp *stamp) {
   const bool is_monotonic = (buffer_flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const bool is_end = (buffer_flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
   *stamp = is_monotonic ? ofDevice(device_time_ns, is_end) : ofArrival(arrival_ns);
-  if (!isPossible(stamp->time_ns, arrival_ns)) {
+  const bool is_possible = isPossible(stamp->time_ns, arrival_ns);
+  const bool is_overtaken = is_possible && stamp->time_ns <= last_ns_;
+  // Its own arrival would overtake the next frame in turn, and so for ever.
+  if (is_overtaken && overtaken_ < kMostOvertaken) return ++overtaken_, false;
+  if (!is_possible || is_overtaken) {
     *stamp = ofArrival(arrival_ns);
     stamp->is_replaced = true;
   }
   if (stamp->time_ns <= last_ns_) return false;
   last_ns_ = stamp->time_ns;
+  if (stamp->is_replaced) return true;
+  last_own_ns_ = last_ns_;
+  overtaken_ = 0;
   return true;
 }
 

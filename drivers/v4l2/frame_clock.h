@@ -20,7 +20,8 @@ class FrameClock {
     uint32_t time_sigma_us;
     bool is_replaced;  // the device's time could not be, so it is that of arrival
   };
-  // False: neither the device's time nor that of arrival is later than the last stamp's.
+  // False: neither the device's time nor that of arrival is later than the last stamp's; or the device's could be,
+  // but the last stamp is the arrival of an earlier frame whose own could not.
   // `device_time_ns` negative: one that cannot be.
   bool stamp(int64_t device_time_ns, uint32_t buffer_flags, int64_t arrival_ns, Stamp *stamp);
 
@@ -31,6 +32,8 @@ class FrameClock {
 
   int64_t start_ns_ = 0;
   int64_t last_ns_ = INT64_MIN;
+  int64_t last_own_ns_ = INT64_MIN;  // of a frame that was not replaced
+  uint32_t overtaken_ = 0;           // frames since, by a replaced one's arrival
   int64_t no_frame_ns_ = 0;
   int64_t period_ns_ = 0;
   uint32_t exposure_us_ = 0;

@@ -128,7 +128,7 @@ typedef struct sphc_v4l2_stats {
   uint64_t uncounted;    /* the device's count stood still or jumped: taken as the next one */
   uint64_t
       time_replaced; /* time impossible (before start, in the future, not later than the last): arrival instead */
-  uint64_t time_refused; /* left out, since arrival was not later than the last time either */
+  uint64_t time_refused; /* left out: not later than the last time, which was another frame's arrival */
   /* Others. */
   uint64_t starved;         /* the caller was slow: every buffer was full, so the device could only lose frames */
   uint64_t device_errors;   /* acquire said E_DEVICE */

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
+#include "drivers/v4l2/v4l2.h"
+
 namespace sphc::v4l2 {
 namespace {
 
@@ -102,6 +104,41 @@ TEST(FrameClock, NeverGoesBackNorStandsStill) {
   EXPECT_FALSE(clock.stamp(kStart + 70 * kMs, kSoe, kStart + 70 * kMs, &refused));
   clock.restart(kStart + 80 * kMs, kPeriod);
   EXPECT_FALSE(stamped(clock, kStart + 81 * kMs, kSoe, kStart + 90 * kMs).is_replaced);
+}
+
+// A slow caller takes frames later than a period after their times, and an arrival overtakes the next of them.
+TEST(FrameClock, OneTimeThatCannotBeSpoilsNoneOfThoseAfterIt) {
+  FrameClock clock = startedClock();
+  const int64_t late_ns = 3 * kPeriod + 20 * kMs;
+  const auto time_ns = [](int frame) { return kStart + frame * kPeriod; };
+  EXPECT_FALSE(stamped(clock, time_ns(1), kSoe, time_ns(1) + late_ns).is_replaced);
+  EXPECT_TRUE(stamped(clock, 0, kSoe, time_ns(2) + late_ns).is_replaced);
+  FrameClock::Stamp stamp;
+  int frame = 3;
+  for (; frame <= 5; ++frame) EXPECT_FALSE(clock.stamp(time_ns(frame), kSoe, time_ns(frame) + late_ns, &stamp));
+  for (; frame <= 40; ++frame) {
+    stamp = stamped(clock, time_ns(frame), kSoe, time_ns(frame) + late_ns);
+    EXPECT_EQ(stamp.time_ns, time_ns(frame));
+    EXPECT_EQ(stamp.time_point, SPHC_TIME_START);
+  }
+}
+
+TEST(FrameClock, AClockThatStaysBehindLosesNoMoreThanARing) {
+  FrameClock clock = startedClock();
+  int64_t arrival_ns = kStart + 100000 * kMs;
+  stamped(clock, kStart + 10 * kMs, kSoe, kStart + 20 * kMs);
+  EXPECT_TRUE(stamped(clock, 0, kSoe, arrival_ns).is_replaced);
+  FrameClock::Stamp stamp;
+  uint32_t left_out = 0;
+  for (int frame = 1; frame <= 200; ++frame) {
+    arrival_ns += kPeriod;
+    if (!clock.stamp(kStart + 10 * kMs + frame * kPeriod, kSoe, arrival_ns, &stamp)) {
+      ++left_out;
+      continue;
+    }
+    EXPECT_EQ(stamp.time_ns, arrival_ns);
+  }
+  EXPECT_EQ(left_out, SPHC_V4L2_MAX_BUFFERS);
 }
 
 TEST(FrameClock, ATimeAheadDoesNotHoldUpTheNextStart) {
