@@ -183,6 +183,19 @@ TEST_F(Tum, NamesTheLineThatIsWrong) {
   expectRefused(SPHC_E_DEVICE, "depth.txt: cannot be read");
 }
 
+TEST_F(Tum, NamesTimesBelowZero) {
+  const std::string good = folder_.read("rgb.txt");
+  folder_.write("rgb.txt", "-0.5 rgb/000000.png\n");
+  expectRefused(SPHC_E_ARGUMENT,
+                "rgb.txt, line 1: expected \"seconds file\", and -0.5 is below 0; add the same to the times of");
+  folder_.write("rgb.txt", good);
+  folder_.write("groundtruth.txt", "-5e-2 0 0 0 0 0 0 1\n");
+  expectRefused(SPHC_E_ARGUMENT,
+                "groundtruth.txt, line 1: expected \"seconds tx ty tz qx qy qz qw\", and -5e-2 is");
+  folder_.write("groundtruth.txt", "-x 0 0 0 0 0 0 1\n");
+  expectRefused(SPHC_E_ARGUMENT, "expected \"seconds tx ty tz qx qy qz qw\"");
+}
+
 TEST_F(Tum, NamesTheUnitOfTimesThatAreNotInSeconds) {
   folder_.write("rgb.txt", "1305031102175304123 rgb/000000.png\n");
   expectRefused(SPHC_E_ARGUMENT,

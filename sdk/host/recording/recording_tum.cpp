@@ -32,10 +32,14 @@ std::string pathFault(const fs::path &folder, const fs::path &file) {
   return left == folder.end() ? "" : "the file is a link out of the recording" + cure;
 }
 
-// A time that is too large for seconds is of another unit.  In any, times since 1970 begin with 1 until 2033;
-// others of as many digits count from when a machine or a recording began.
-std::string otherUnitOf(std::string_view time) {
+// A time before the clock's own beginning, or one that is too large for seconds and so of another unit.  In any,
+// times since 1970 begin with 1 until 2033; others of as many digits count from when a machine or a recording
+// began.
+std::string faultOfTime(std::string_view time) {
   int64_t unused_ns = 0;
+  if (!time.empty() && time[0] == '-' && parseSeconds(time.substr(1), unused_ns))
+    return ", and " + std::string(time.substr(0, 24)) +
+           " is below 0; add the same to the times of images and poses, until none is";
   const size_t digits = std::min(time.find_first_not_of("0123456789"), time.size());
   const bool is_number = digits == time.size() || time[digits] == '.';
   if (digits < 10 || !is_number || parseSeconds(time, unused_ns)) return "";
@@ -60,7 +64,7 @@ void forEachLine(const fs::path &path, const char *expected, const LineParser &p
     rest.remove_prefix(complete ? end + 1 : rest.size());
     if (line.empty() || line[0] == '#' || parse(line, number) || !complete) continue;
     failLine(path, number,
-             std::string("expected \"") + expected + "\"" + otherUnitOf(withoutExponent(takeWord(line))));
+             std::string("expected \"") + expected + "\"" + faultOfTime(withoutExponent(takeWord(line))));
   }
 }
 
