@@ -164,8 +164,17 @@ void FileUse::writesNew(const std::string &option, const std::string &path) {
 
 void FileUse::keeps(const std::string &option, const std::string &path) { add(option, path, Kind::kKept, never()); }
 
+// A folder of that name would be made where standard output was meant.
+void FileUse::checkIsName(const Output &output) {
+  if (output.path != "-") return;
+  throw UsageError(output.option + (output.kind == Kind::kFile
+                                        ? ": - is no name of a file; give one, or /dev/stdout where that is a pipe"
+                                        : ": - is no name; give one, or ./- where that is meant"));
+}
+
 void FileUse::check() const {
   for (const Output &output : outputs_) {
+    checkIsName(output);
     for (const Input &input : inputs_) {
       if (areSame(output.path, input.path))
         throw UsageError(output.option + " would replace what " + input.option + " reads: " + output.path +
@@ -200,8 +209,6 @@ void FileUse::checkFile(const Output &output) const {
   std::error_code error;
   const std::string &path = output.path;
   const fs::file_status status = fs::status(path, error);
-  if (path == "-")
-    throw UsageError(output.option + ": - is no name of a file; give one, or /dev/stdout where that is a pipe");
   if (fs::exists(status) && !fs::is_character_file(status) && isStandardOutput(path))
     refuse(output.option, path, "is where this command's own words go; give a file of its own");
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");

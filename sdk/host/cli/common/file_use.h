@@ -53,6 +53,7 @@ class FileUse {
   };
 
   void add(const std::string &option, const std::string &path, Kind kind, IsOurs is_ours);
+  static void checkIsName(const Output &output);
   static void checkIsApart(const Output &output, const Output &folder);
   void checkFile(const Output &output) const;
   void checkFolder(const Output &output) const;

@@ -99,6 +99,22 @@ TEST_F(FileUseTest, ForceIsForFilesOfOthersAlone) {
 TEST_F(FileUseTest, AMinusIsNoName) {
   EXPECT_EQ(wrongUse("-").substr(0, 8), "--out: -");
   EXPECT_EQ(refusal("./-"), "fine");
+  // Of what is never written into a pipe, /dev/stdout is none either.
+  using Write = void (*)(FileUse *, const std::string &path);
+  for (const Write write :
+       {Write([](FileUse *f, const std::string &path) { f->writesRecording("--out", path); }),
+        Write([](FileUse *f, const std::string &path) { f->writesNew("--out", path); }),
+        Write([](FileUse *f, const std::string &path) { f->keeps("--out", path); }),
+        Write([](FileUse *f, const std::string &path) { f->writesFolder("--out", path, never()); })}) {
+    FileUse files(false);
+    write(&files, "-");
+    try {
+      files.check();
+      ADD_FAILURE() << "- was taken";
+    } catch (const UsageError &error) {
+      EXPECT_STREQ(error.what(), "--out: - is no name; give one, or ./- where that is meant");
+    }
+  }
 }
 
 TEST_F(FileUseTest, TwoOutputsAreTwoFiles) {
