@@ -85,7 +85,7 @@ bool FrameLinker::isSupported(const Side &side, const LinkDemands &demands) cons
   InlierRegion region;
   region.threshold2 = estimator_.inlierThreshold2();
   const Span<const Correspondence> all = {side.correspondences.data(), side.correspondences.size()};
-  return logChanceOfAgreement(all, estimate.camera_from_map, estimate.inliers, 3, region) < kMostLogChance;
+  return logChanceOfAgreement(all, estimate.camera_from_map, estimate.inliers, region) < kMostLogChance;
 }
 
 std::optional<FrameLink> FrameLinker::link(const std::vector<WalkFrame> &frames, const FramePair &pair,

@@ -34,15 +34,15 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, const 
 }  // namespace
 
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
-                            uint32_t inliers, uint32_t free, const InlierRegion &region) {
-  if (inliers <= free) return 0;
+                            uint32_t inliers, const InlierRegion &region) {
+  if (inliers <= kMinimalSample) return 0;
   double sum = 0, count = 0;
   for (const Correspondence &c : correspondences) {
     if (!c.lifted.hasDepth()) continue;
     sum += inlierShare(c, camera_from_map, region);
     ++count;
   }
-  return logTail(inliers - free, count - free, sum / count);
+  return logTail(inliers - kMinimalSample, count - kMinimalSample, sum / count);
 }
 
 double doubtOf(uint32_t inliers) { return 1 + kInliersOfDoubt / inliers; }

@@ -15,10 +15,11 @@ struct InlierRegion {
 
 // Bound on the natural logarithm of the probability that as many as `inliers` of these correspondences would agree
 // with the pose by chance, their directions being spread evenly over the solid angle (4 pi: the sphere) around the
-// predicted ones.  `free`: of the inliers, how many agree because the pose was made from them.  An a-contrario
-// test, as in Moisan and Stival, "A probabilistic criterion to detect rigid point matches" (IJCV 2004).
+// predicted ones; kMinimalSample of them agree because the pose was made from them.  An a-contrario test, as in
+// Moisan and Stival, "A probabilistic criterion to detect rigid point matches" (IJCV 2004).
+constexpr uint32_t kMinimalSample = 3;
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
-                            uint32_t inliers, uint32_t free, const InlierRegion &region);
+                            uint32_t inliers, const InlierRegion &region);
 
 // Where the matches behind a pose were looked for.
 enum class MatchSource : uint8_t {

@@ -247,9 +247,9 @@ constexpr double kSpeedApart = 0.35, kTurnApart = 0.08;     // m / s, rad / s
 constexpr double kMostTogetherS = 0.05, kMostApartS = 1.0;  // s
 // A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.
 constexpr PoseBounds kNoJump = {0.15, degrees(8)};
+constexpr double kTimesSupport = 2;
 // What a search near a track finds beyond this by the gate must be found in the whole map: floors repeat.  Chosen.
 constexpr PoseBounds kNoJumpOfTrack = {0.05, degrees(3)};
-constexpr double kTimesSupport = 2;
 // A track is trusted from a pose of more confidence than this on (decision 88): not from one with a near rival.
 constexpr double kSureOfTrack = 0.95;
 // A pose that neither a sure track nor the caller expects is not sure where, of the frames before it, so many and

@@ -12,20 +12,7 @@ using namespace tuning;
 
 namespace {
 
-static_assert(1 + kInliersBeyondChallenge / kInliersALeverage <= kMostHighLeverage, "so many may be left out");
-static_assert(kFewInliers / 3 <= kMostHighLeverage, "and of few a third");
-
-// Until a pose that was found is judged.
-Outcome outcomeOf(PoseEnding ending) {
-  if (ending == PoseEnding::kFewCorrespondences) return Outcome::kFewMatches;
-  return ending == PoseEnding::kDeadline ? Outcome::kDeadline : Outcome::kNoConsensus;
-}
-
-PoseQuery queryAbout(const PoseTask &task, const MatchSet &matched) {
-  PoseQuery query = task.query;
-  query.correspondences = matched.all();
-  return query;
-}
+static_assert(kFewInliers / 3 <= kMostHighLeverage, "of few inliers a third may be left out");
 
 void copyWithout(const Leverage &leverage, const Hypothesis &from, MatchSet *matched) {
   const auto begin = leverage.indices.begin(), end = leverage.indices.end();
@@ -38,8 +25,8 @@ void copyWithout(const Leverage &leverage, const Hypothesis &from, MatchSet *mat
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint64_t left_ns = task.query.deadline.leftNs();
-  if (!searchPose(task, found)) return;
-  rematch(task, found);
+  if (!hypotheses_.search(task, found)) return;
+  hypotheses_.rematch(task, found);
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
   verify(task, found, rival);
 }
@@ -47,16 +34,16 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
 // The strict ratio test may leave so few true matches that chance could explain them.  A looser one brings more of
 // them, and wrong ones, which the test of chance counts.
 void Verification::findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (search_.maxRatio() >= kLooserRatio || isCut(task)) return;
+  if (search_.maxRatio() >= kLooserRatio || hypotheses_.isCut(task)) return;
   PoseTask other;
-  if (!searchOtherMatches(task, task.query.prior, kLooserRatio, found, &other)) return;
+  if (!hypotheses_.searchOtherMatches(task, task.query.prior, kLooserRatio, found, &other)) return;
   found->evidence.log_chance_first += logOf(2);  // the better of two searches
-  rematch(other, found);
+  hypotheses_.rematch(other, found);
   verify(other, found, rival);
 }
 
 void Verification::findUnverifiedPose(const PoseTask &task, Hypothesis *found) const {
-  if (searchPose(task, found)) rematch(task, found);
+  if (hypotheses_.search(task, found)) hypotheses_.rematch(task, found);
 }
 
 // A pose that was found, against its rivals.
@@ -68,87 +55,6 @@ void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *r
   challengeFew(task, found, rival);
   challengeRepeated(task, found, rival);
   if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
-}
-
-// Before a step of verification: is there no time for it?
-bool Verification::isCut(const PoseTask &task) const {
-  if (!task.query.deadline.passed()) return false;
-  work_.cuts |= kCutVerification;
-  return true;
-}
-
-// Before a step without which the pose is not verified.
-bool Verification::isLeftOut(const PoseTask &task, Hypothesis *found) const {
-  if (!isCut(task)) return false;
-  found->is_verified = false;
-  return true;
-}
-
-// False where there is nothing to verify.
-bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) const {
-  PoseQuery query = queryAbout(task, hypothesis->matched);
-  if (query.correspondences.size() < kFewestMatches) return false;
-  query.deadline = task.query.deadline.afterShare(kSearchShare);
-  const Estimate &found = hypothesis->searched = hypothesis->estimate = estimator_.search(query);
-  work_.samples += found.iterations;
-  if (found.cut_short) work_.cuts |= kCutSearch;
-  hypothesis->outcome = outcomeOf(found.ending);
-  if (found.inliers <= kFewestMatches / 2) return false;
-  hypothesis->evidence.source = hypothesis->guided ? MatchSource::kExpected : MatchSource::kGlobal;
-  hypothesis->evidence.log_chance_first =
-      logChanceOfAgreement(query.correspondences, found.camera_from_map, found.inliers, 3,
-                           {query.depth.noise_scale, estimator_.inlierThreshold2(), task.solid_angle_sr}) +
-      logOf(static_cast<double>(found.iterations) + 1);
-  return true;
-}
-
-// A pose says where in the map each keypoint lies: match them again near there.  True points that lost the ratio
-// test against some distant near-duplicate come back, and fakes, which lie anywhere, drop out.
-void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
-  Estimate &estimate = hypothesis->estimate;
-  MatchSet &matched = hypothesis->matched;
-  const Deadline own = task.query.deadline.afterShare(hypothesis->guided ? kRematchNearShare : kRematchShare);
-  const auto cones = static_cast<uint32_t>(task.cones_rad.size());
-  // The narrow cone alone where there is no time for all.
-  const bool has_time = search_.hasTimeNear(cones * task.question.front->liftedCount(), own);
-  if (!has_time) work_.cuts |= kCutVerification;
-  for (uint32_t cone = has_time ? 0 : cones - 1; cone < cones; ++cone) {
-    if (isCut(task)) {
-      hypothesis->is_verified = false;
-      break;
-    }
-    const bool is_last = cone + 1 == cones;
-    search_.matchNear(task.question, estimate.camera_from_map, task.cones_rad[cone], task.rays,
-                      is_last ? own : own.afterShare(kFirstConeShare), &matched, &work_);
-    if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &matched);
-    estimate = estimator_.refine(queryAbout(task, matched), estimate.camera_from_map);
-  }
-  const Span<const Correspondence> now = matched.ofThisFrame();
-  const auto agrees = [&](const Correspondence &c) { return estimator_.isInlier(c, estimate); };
-  const auto inliers = static_cast<uint32_t>(std::count_if(now.begin(), now.end(), agrees));
-  if (hypothesis->frames > 1 && estimate.inliers > inliers)
-    fusion_.widenByDrift(1 - static_cast<double>(inliers) / estimate.inliers, &estimate);
-  const double last_cone_rad = task.cones_rad[task.cones_rad.size() - 1];
-  Evidence &evidence = hypothesis->evidence;
-  evidence.inliers = estimate.inliers;
-  evidence.log_chance_second = logChanceOfAgreement(
-      now, estimate.camera_from_map, inliers, 3,
-      {task.query.depth.noise_scale, estimator_.inlierThreshold2(), solidAngleOf(last_cone_rad)});
-  findLeverage(task, hypothesis);
-  evidence.centre_sigma_ratio = hypothesis->leverage.centre_sigma_ratio;
-  hypothesis->outcome = judgePose(evidence, estimate, min_inliers_);
-  ranking_.add(*hypothesis, search_.maps().idOf(hypothesis->map));
-}
-
-void Verification::findLeverage(const PoseTask &task, Hypothesis *hypothesis) const {
-  const uint32_t inliers = hypothesis->estimate.inliers;
-  hypothesis->leverage = {};
-  if (inliers >= kInliersBeyondChallenge) return;
-  hypothesis->leverage = highestLeverage(hypothesis->matched.all(), hypothesis->estimate,
-                                         1 + inliers / kInliersALeverage, task.query.deadline);
-  if (hypothesis->leverage.is_known) return;
-  work_.cuts |= kCutVerification;
-  hypothesis->is_verified = false;
 }
 
 // Makes the rival what is found without some of a pose's matches; false where nothing is.
@@ -164,7 +70,7 @@ bool Verification::searchAmong(const PoseTask &task, Hypothesis *rival) const {
   rival->estimate = estimator_.search(queryAbout(task, rival->matched));
   work_.samples += rival->estimate.iterations;
   if (rival->estimate.inliers <= kFewestMatches / 2) return false;
-  rematch(task, rival);
+  hypotheses_.rematch(task, rival);
   return true;
 }
 
@@ -172,7 +78,7 @@ bool Verification::searchAmong(const PoseTask &task, Hypothesis *rival) const {
 // what is found without them stays.
 void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (found->leverage.centre_sigma_ratio < kRestsOnFew) return;
-  if (isLeftOut(task, found)) return;
+  if (hypotheses_.isLeftOut(task, found)) return;
   if (searchWithout(found->leverage, task, *found, rival) && rival->estimate.gain > found->estimate.gain)
     swap(*found, *rival);
 }
@@ -183,10 +89,10 @@ void Verification::challengeFew(const PoseTask &task, Hypothesis *found, Hypothe
   const uint32_t inliers = found->estimate.inliers;
   if (found->guided || inliers >= kFewInliers) return;
   for (const uint32_t one_in : kLeftOutOfFew) {
-    if (!found->isLocalized() || isLeftOut(task, found)) return;
+    if (!found->isLocalized() || hypotheses_.isLeftOut(task, found)) return;
     const Leverage leverage =
         highestLeverage(found->matched.all(), found->estimate, inliers / one_in, task.query.deadline);
-    if (!leverage.is_known && isLeftOut(task, found)) return;
+    if (!leverage.is_known && hypotheses_.isLeftOut(task, found)) return;
     if (searchWithout(leverage, task, *found, rival) &&
         !areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePoseOfFew) &&
         rival->estimate.gain > kNearlyAsGoodOfFew * found->estimate.gain)
@@ -203,8 +109,8 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   const double gain = found->estimate.gain;
   const Rigid apart = rival->estimate.camera_from_map * found->estimate.camera_from_map.inverse();
   if (rival->estimate.gain < kNearlyAsGood * gain || rotationAngle(apart.rotation) < kSamePoseRad) return;
-  if (isLeftOut(task, found)) return;
-  rematch(task, rival);
+  if (hypotheses_.isLeftOut(task, found)) return;
+  hypotheses_.rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
   if (rival_gain > gain) swap(*found, *rival);
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->doubtForRival();
@@ -217,7 +123,7 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   const uint32_t inliers = found->estimate.inliers;
   if (!found->isLocalized() || found->guided || inliers >= kInliersBeyondOthers) return;
   const bool has_many = inliers >= kInliersSeldomWrong;
-  if (has_many ? isCut(task) : isLeftOut(task, found)) return;
+  if (has_many ? hypotheses_.isCut(task) : hypotheses_.isLeftOut(task, found)) return;
   const ChallengeByOthers &way = has_many ? kOfManyInliers : kOfFewInliers;
   PoseTask other = task;
   other.query.seed += kOtherSeed;
@@ -229,7 +135,7 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   for (uint32_t i = 0; i < found->matched.matches().size(); ++i)
     if (estimator_.isInlier(found->matched.ofThisFrame()[i], found->estimate))
       rival->matched.room()[taken++] = found->matched.matches()[i];
-  const uint32_t keypoints = std::min(answerable(other), way.most_keypoints);
+  const uint32_t keypoints = std::min(hypotheses_.answerable(other), way.most_keypoints);
   search_.matchOthers(task.question, keypoints, rival->matched.room().first(taken), other.query.deadline,
                       &rival->matched, &work_);
   const Span<const Correspondence> all = found->matched.all();
@@ -244,8 +150,8 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
 // The pose that the rival's matches lead to, if it is another one, against the one that was found: the better
 // stays.
 bool Verification::challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (!searchPose(task, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return false;
-  rematch(task, rival);
+  if (!hypotheses_.search(task, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return false;
+  hypotheses_.rematch(task, rival);
   if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
     return false;
   if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
@@ -277,7 +183,9 @@ void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hy
   const bool is_known =
       found->guided && inliers >= kAgreeingOfKnown * static_cast<double>(found->matched.all().size());
   if (is_known && inliers >= kInliersBeyondConfirmation) return;
-  if (isCut(task) || (!repetition_.look(*task.question.front, task.query.deadline) && isCut(task))) return;
+  if (hypotheses_.isCut(task) ||
+      (!repetition_.look(*task.question.front, task.query.deadline) && hypotheses_.isCut(task)))
+    return;
   if (repetition_.moves_m().empty()) return;
   if (replaceByUnrepeated(task, found, rival)) {
     confirm(task, found, rival);
@@ -289,7 +197,7 @@ void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hy
 // Matches of a pattern that agree by chance may draw a pose away from the few others.  Where another one is found
 // without all that repeats, the better of the two stays.  True where that is the other one.
 bool Verification::replaceByUnrepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (isCut(task)) return false;
+  if (hypotheses_.isCut(task)) return false;
   rival->challenge(*found);
   const Span<const Correspondence> all = found->matched.all();
   const size_t of_this_frame = found->matched.matches().size();
@@ -324,13 +232,13 @@ void Verification::challengeByPeriod(const PoseTask &task, Hypothesis *found, Hy
   near.cones_rad = {kConesOfExpectedPose, 1};
   for (const Vector3 &move_m : repetition_.moves_m()) {
     for (const int times : {-1, 1, -2, 2}) {
-      if (isCut(task)) return;
+      if (hypotheses_.isCut(task)) return;
       rival->challenge(*found);
       rival->estimate.camera_from_map.translation_m += times * move_m;
       // Nobody searched for it: what speaks for it is what re-matching shows.
       rival->evidence.source = MatchSource::kExpected;
       rival->evidence.log_chance_first = -std::numeric_limits<double>::infinity();
-      rematch(near, rival);
+      hypotheses_.rematch(near, rival);
       const PoseBounds same = {move_m.norm() / 2, kSamePose.most_turn_rad};
       const double gain = rival->estimate.gain / found->estimate.gain;
       if (gain <= std::min(share, kPeriodGainOfNearRival) ||
@@ -350,37 +258,12 @@ bool Verification::isDoubtful(const Hypothesis &found) const {
   return found.isLocalized() && !found.guided && found.estimate.inliers < kInliersBeyondConfirmation;
 }
 
-// Of all keypoints, how many can be matched everywhere in a share of the time that is left?
-uint32_t Verification::answerable(const PoseTask &task) const {
-  const uint32_t all = task.question.front->keypointCount();
-  const uint32_t keypoints = search_.answerable(all, task.query.deadline.afterShare(kMatchShare));
-  if (keypoints < all) work_.cuts |= kCutMatches;
-  return keypoints;
-}
-
-// Searches among the matches that all keypoints have at this ratio, in another order than the first search did, by
-// what is known of the pose (null: nothing).
-// `other` becomes the task of these matches; false where they lead to no pose.
-bool Verification::searchOtherMatches(const PoseTask &task, const PosePrior *prior, float max_ratio,
-                                      Hypothesis *hypothesis, PoseTask *other) const {
-  const FrontEnd &front = *task.question.front;
-  *other = task;
-  other->max_ratio = max_ratio;
-  other->query.prior = prior;
-  other->query.seed += kOtherSeed;
-  search_.matchEverywhere(task.question, answerable(task), max_ratio, task.query.deadline, &hypothesis->matched,
-                          &work_);
-  other->rays = search_.raysOf(front, hypothesis->matched, task.rays);
-  if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
-  return searchPose(*other, hypothesis);
-}
-
 // The first search took the strongest keypoints, or ended with the first pose that chance could not explain: where
 // few matches agree, the better of it and what a second search finds stays.  That takes what the first one did, so
 // confirmation goes before it where time is short.
 void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found,
                                Hypothesis *rival) const {
-  if (!isDoubtful(*found) || isCut(task)) return;
+  if (!isDoubtful(*found) || hypotheses_.isCut(task)) return;
   const Deadline &deadline = task.query.deadline;
   if (deadline.isSet() && kAgainShare * static_cast<double>(deadline.leftNs()) < static_cast<double>(spent_ns)) {
     work_.cuts |= kCutVerification;
@@ -389,8 +272,8 @@ void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothes
   PoseTask own = task, other;
   own.query.deadline = deadline.afterShare(kAgainShare);
   rival->begin(found->map, found->frames);
-  if (!searchOtherMatches(own, own.query.prior, search_.maxRatio(), rival, &other)) return;
-  rematch(other, rival);
+  if (!hypotheses_.searchOtherMatches(own, own.query.prior, search_.maxRatio(), rival, &other)) return;
+  hypotheses_.rematch(other, rival);
   if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
 }
 
@@ -402,11 +285,11 @@ void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *
   bool has_rival = false;
   for (const ConfirmingSearch &way : kConfirmingSearches) {
     if (task.max_ratio >= way.max_ratio) continue;
-    if (isCut(task)) break;
+    if (hypotheses_.isCut(task)) break;
     PoseTask other;
     rival->begin(found->map, found->frames);
     const float max_ratio = std::max(way.max_ratio, search_.maxRatio());
-    if (!searchOtherMatches(task, nullptr, max_ratio, rival, &other)) continue;
+    if (!hypotheses_.searchOtherMatches(task, nullptr, max_ratio, rival, &other)) continue;
     const Rigid &pose = rival->estimate.camera_from_map;
     if (areNear(pose, found->estimate.camera_from_map, way.agreement)) return;
     has_rival = has_rival || (rival->evidence.log_chance_first <= kMostLogChanceOfRival &&

@@ -1,41 +1,26 @@
-// From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
-// predicts, then verification against its rivals: what another search finds, what is found without its
-// high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  An
-// independent search must confirm it, and one of few inliers must hold without a part of them.  A pose that
-// lacks one of these for its deadline is uncertain.  In the end, where what is seen repeats, and there is time, it
-// is compared with what is found without all that repeats, and with poses that are off by the period.  What all
-// that finds no pose of is searched once more, among the matches of a looser ratio test.
+// From matches to a pose that is to be believed, or not: a hypothesis (hypothesis_search.h), then verification
+// against its rivals: what another search finds, what is found without its high-leverage observations, the second
+// pose of a planar scene, and what the other keypoints speak for.  An independent search must confirm it, and one
+// of few inliers must hold without a part of them.  A pose that lacks one of these for its deadline is uncertain.
+// In the end, where what is seen repeats, and there is time, it is compared with what is found without all that
+// repeats, and with poses that are off by the period.  What all that finds no pose of is searched once more, among
+// the matches of a looser ratio test.
 #pragma once
-#include "runtime/localizer/fusion.h"
-#include "runtime/localizer/ranking.h"
+#include "runtime/localizer/hypothesis_search.h"
 #include "runtime/localizer/repetition.h"
-#include "runtime/stages/pose/estimator.h"
 
 namespace sphc {
-
-// What the hypotheses of one search have in common.
-struct PoseTask {
-  Search::Question question;        // the frame and the map
-  Span<const Match> rays;           // matches of keypoints without depth
-  PoseQuery query;                  // without the correspondences, which are the hypothesis's
-  double solid_angle_sr = 0;        // in which the first matches were looked for
-  Span<const double> cones_rad;     // of guided re-matching, one after another
-  float max_ratio = 0;              // of the first matches, where it is not the configured one
-  const Rigid *expected = nullptr;  // camera from map, by a track; null where none says
-};
 
 class Verification {
  public:
   Verification(Search *search, PoseEstimator *estimator, Repetition *repetition, const Fusion *fusion,
                uint32_t min_inliers, bool tracks, Work *work, Ranking *ranking)
-      : search_(*search),
+      : hypotheses_(search, estimator, fusion, min_inliers, work, ranking),
+        search_(*search),
         estimator_(*estimator),
         repetition_(*repetition),
-        fusion_(*fusion),
-        min_inliers_(min_inliers),
         tracks_(tracks),
-        work_(*work),
-        ranking_(*ranking) {}
+        work_(*work) {}
 
   // `found` has its first matches.  It becomes the best hypothesis they lead to, and judged; `rival` is memory for
   // others.
@@ -52,15 +37,7 @@ class Verification {
   };
 
   void verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
-  bool searchPose(const PoseTask &task, Hypothesis *hypothesis) const;
-  void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
-  void findLeverage(const PoseTask &task, Hypothesis *hypothesis) const;
-  bool isCut(const PoseTask &task) const;
-  bool isLeftOut(const PoseTask &task, Hypothesis *found) const;
-  uint32_t answerable(const PoseTask &task) const;
   bool isDoubtful(const Hypothesis &found) const;
-  bool searchOtherMatches(const PoseTask &task, const PosePrior *prior, float max_ratio, Hypothesis *hypothesis,
-                          PoseTask *other) const;
   void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
   bool challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
@@ -78,14 +55,12 @@ class Verification {
   void challengeFew(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
 
+  HypothesisSearch hypotheses_;
   Search &search_;
   PoseEstimator &estimator_;
   Repetition &repetition_;
-  const Fusion &fusion_;
-  uint32_t min_inliers_;
   bool tracks_;
   Work &work_;
-  Ranking &ranking_;
 };
 
 }  // namespace sphc

@@ -9,52 +9,15 @@
 #include "runtime/stages/pose/mirrored.h"
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
-#include "tests/unit/runtime/localizer/room_parts.h"
 #include "tests/unit/runtime/localizer/room_points.h"
+#include "tests/unit/runtime/localizer/verification_fixture.h"
 
 namespace sphc {
 namespace {
 
 using namespace tuning;
 
-class VerificationTest : public testing::Test {
- protected:
-  explicit VerificationTest(std::vector<test::SceneMap> maps) : parts_(std::move(maps)) {}
-  explicit VerificationTest(double eta = 0.5) : parts_(eta) {}
-
-  PoseTask task() {
-    PoseTask task;
-    task.question = parts_.askAll();
-    task.query.depth = parts_.config.depth_prior;
-    task.query.seed = 1;
-    task.solid_angle_sr = 4 * kPi;
-    task.cones_rad = {kConesOfSearchedPose, 2};
-    return task;
-  }
-  // Sees the room and matches the first keypoints everywhere.
-  PoseTask seen(uint32_t viewpoint, uint32_t room = 0, uint32_t keypoints = UINT32_MAX) {
-    parts_.see(viewpoint, room);
-    const PoseTask task = this->task();
-    found().begin(0);
-    parts_.search.matchEverywhere(task.question, std::min(keypoints, parts_.front.keypointCount()), {},
-                                  &found().matched, &parts_.work);
-    return task;
-  }
-  void verify(const PoseTask &task) {
-    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, tracks_,
-                 &parts_.work, &ranking_)
-        .findPose(task, &found(), &parts_.rival);
-  }
-  double errorM(uint32_t viewpoint) {
-    return test::translationErrorM(found().estimate.camera_from_map, parts_.cameraFromMap(viewpoint));
-  }
-  Hypothesis &found() { return parts_.found; }
-
-  uint32_t min_inliers_ = 10;
-  bool tracks_ = false;
-  Ranking ranking_;
-  test::RoomParts parts_;
-};
+using test::VerificationTest;
 
 TEST_F(VerificationTest, FindsWhereItsRoomIsSeenFrom) {
   for (uint32_t viewpoint : {0u, 1u, 3u}) {
@@ -73,101 +36,6 @@ TEST_F(VerificationTest, AnotherRoomIsNotBelieved) {
     verify(seen(0, room));
     EXPECT_FALSE(found().isLocalized()) << room;
   }
-}
-
-TEST_F(VerificationTest, GuidedRematchingAsksEveryKeypointNearThePose) {
-  constexpr uint32_t kFirst = 80;
-  verify(seen(1, 0, kFirst));
-  ASSERT_TRUE(found().isLocalized());
-  const auto matches = found().matched.matches();
-  const auto is_new = [&](const Match &match) { return match.query >= kFirst; };
-  EXPECT_GT(std::count_if(matches.begin(), matches.end(), is_new), 40);
-  for (const Correspondence &c : found().matched.ofThisFrame())
-    EXPECT_LT(parts_.angleOff(c, found().estimate.camera_from_map), kConesOfSearchedPose[1] + degrees(0.5));
-}
-
-TEST_F(VerificationTest, TooFewMatchesAreNotSearched) {
-  const PoseTask task = seen(0);
-  found().matched.assign(kFewestMatches - 1, parts_.front, parts_.search.map(0));
-  verify(task);
-  EXPECT_EQ(found().outcome, Outcome::kFewMatches);
-  EXPECT_EQ(parts_.work.samples, 0u);
-}
-
-TEST_F(VerificationTest, CountsTheSamples) {
-  verify(seen(0));
-  EXPECT_GT(found().searched.iterations, 0u);
-  EXPECT_GE(parts_.work.samples, found().searched.iterations);
-}
-
-TEST_F(VerificationTest, TheDeadlineIsTheReasonWhereItPassed) {
-  PoseTask task = seen(0);
-  task.query.deadline = Deadline::after({[](void *) { return int64_t{10}; }, nullptr}, 0, 1);
-  verify(task);
-  EXPECT_EQ(found().outcome, Outcome::kDeadline);
-}
-
-TEST_F(VerificationTest, FewerInliersThanTheConfigAsksForAreNotBelieved) {
-  min_inliers_ = 5000;
-  verify(seen(0));
-  EXPECT_EQ(found().outcome, Outcome::kNoConsensus);
-  EXPECT_LT(errorM(0), 0.02);
-}
-
-// In a narrow cone more agrees by chance.
-TEST_F(VerificationTest, AgreementWhereThePoseWasExpectedProvesLess) {
-  PoseTask task = seen(0);
-  verify(task);
-  const double everywhere = found().evidence.log_chance_first;
-  task = seen(0);
-  task.solid_angle_sr = solidAngleOf(degrees(5));
-  found().guided = true;
-  verify(task);
-  EXPECT_EQ(found().evidence.source, MatchSource::kExpected);
-  EXPECT_GT(found().evidence.log_chance_first, everywhere + 10);
-}
-
-TEST_F(VerificationTest, RaysTakePartInGuidedRematching) {
-  PoseTask task = seen(0);
-  const uint32_t lifted = parts_.front.liftedCount();
-  ASSERT_LT(lifted, parts_.front.keypointCount()) << "the frame has no keypoint without depth";
-  const Match rays[] = {{lifted, 5, 10, 40}};
-  task.rays = {rays, 1};
-  verify(task);
-  const auto matches = found().matched.matches();
-  ASSERT_FALSE(matches.empty());
-  EXPECT_EQ(matches[matches.size() - 1].query, lifted);
-  EXPECT_EQ(matches[matches.size() - 1].point_index, 5u);
-}
-
-// What earlier frames matched stands behind this frame's matches, after every guided re-matching, and proves
-// nothing about it.
-TEST_F(VerificationTest, EarlierFramesTakePartWhereTheyWerePutTogether) {
-  Tracker tracker;
-  const Odometry still = {{}, 1e-4, 1e-4};
-  tracker.advance(1000, &still);
-  seen(0);
-  parts_.fusion.remember(0, found().matched);
-  tracker.advance(1000 + 33000000, &still);
-  parts_.fusion.advance(tracker);
-
-  verify(seen(0, 0, 60));
-  EXPECT_EQ(found().matched.all().size(), found().matched.matches().size());
-  const double alone = found().evidence.log_chance_second;
-  const PoseTask task = seen(0, 0, 60);
-  found().begin(0, 2);
-  parts_.search.matchEverywhere(task.question, 60, {}, &found().matched, &parts_.work);
-  verify(task);
-  EXPECT_EQ(found().frames, 2u);
-  EXPECT_GT(found().matched.all().size(), found().matched.matches().size());
-  EXPECT_NEAR(found().evidence.log_chance_second, alone, 0.1 * -alone);
-}
-
-TEST_F(VerificationTest, AmongManyInliersAFewHaveNoSay) {
-  verify(seen(0));
-  ASSERT_GT(found().estimate.inliers, kInliersBeyondChallenge);
-  EXPECT_EQ(found().leverage.indices.size(), 0u);
-  EXPECT_EQ(found().evidence.centre_sigma_ratio, 1);
 }
 
 // Those within a radius of a place on the far wall, 3 m ahead.

@@ -37,7 +37,7 @@ class TestEstimator {
   Outcome judge(const PoseWorld &world, const Estimate &estimate) const {
     const double log_chance =
         logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map,
-                             estimate.inliers, 3, {1, estimator_.inlierThreshold2(), 4 * kPi}) +
+                             estimate.inliers, {1, estimator_.inlierThreshold2(), 4 * kPi}) +
         logOf(static_cast<double>(estimate.iterations));
     return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
   }
@@ -52,7 +52,7 @@ class TestEstimator {
     query.prior = &prior;
     const Estimate estimate = search(world, query);
     const double log_chance = logChanceOfAgreement(
-        {world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map, estimate.inliers, 3,
+        {world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map, estimate.inliers,
         {1, estimator_.inlierThreshold2(), 2 * kPi * (1 - std::cos(cone_rad))});
     const double tried = logOf(static_cast<double>(estimate.iterations) + 1);
     return judgePose({estimate.inliers, log_chance + tried, log_chance, MatchSource::kExpected}, estimate, 10);
