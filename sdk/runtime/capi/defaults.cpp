@@ -54,4 +54,24 @@ sphc_localizer_depth_camera emptyDepthCamera() {
   return camera;
 }
 
+sphc_localizer_result emptyResult() {
+  sphc_localizer_result result = {};
+  result.map_id = SPHC_MAP_NONE;
+  result.camera_from_map.q_wxyz[0] = 1;
+  return result;
+}
+
+sphc_localizer_prior emptyPrior() {
+  sphc_localizer_prior prior = {};
+  prior.camera_from_map.q_wxyz[0] = prior.odometry_from_camera.q_wxyz[0] = 1;
+  return prior;
+}
+
+sphc_localizer_prediction emptyPrediction() {
+  sphc_localizer_prediction prediction = {};
+  prediction.map_id = SPHC_MAP_NONE;
+  prediction.camera_from_map.q_wxyz[0] = 1;
+  return prediction;
+}
+
 }  // namespace sphc

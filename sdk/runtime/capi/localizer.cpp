@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <new>
 
 #include "runtime/base/message.h"
@@ -8,10 +6,8 @@
 #include "runtime/capi/config_copy.h"
 #include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
-#include "runtime/capi/frame_copy.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/localizer_check.h"
-#include "runtime/capi/log.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"
@@ -21,7 +17,6 @@ namespace {
 using sphc::Arena;
 using sphc::Localizer;
 using sphc::LocalizerConfig;
-using sphc::LocalizerResult;
 using sphc::MemoryRange;
 using sphc::MessageWriter;
 
@@ -54,57 +49,6 @@ sphc_status refuseMap(uint32_t map_id, sphc_message *message) {
   return SPHC_E_ARGUMENT;
 }
 
-sphc_localizer_result emptyResult() {
-  sphc_localizer_result result = {};
-  result.map_id = SPHC_MAP_NONE;
-  result.camera_from_map.q_wxyz[0] = 1;
-  return result;
-}
-
-sphc::FrameLimits limitsOf(const sphc_localizer &localizer, bool looks_at_images) {
-  return {looks_at_images, localizer.localizer.config(), localizer.depth_formats, localizer.localizer.maps(),
-          localizer.has_clock};
-}
-
-sphc_status giveOut(const LocalizerResult &answer, const sphc_localizer_frame &frame, uint32_t struct_size,
-                    sphc_localizer *localizer, sphc_localizer_result *result) {
-  const sphc_localizer_result own = sphc::resultFrom(answer, frame);
-  sphc::writeStruct(own, struct_size, result);
-  sphc::logFrame(frame, own, localizer);
-  return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
-}
-
-sphc_localizer_prediction emptyPrediction() {
-  sphc_localizer_prediction prediction = {};
-  prediction.map_id = SPHC_MAP_NONE;
-  prediction.camera_from_map.q_wxyz[0] = 1;
-  return prediction;
-}
-
-sphc_localizer_prior emptyPrior() {
-  sphc_localizer_prior prior = {};
-  prior.camera_from_map.q_wxyz[0] = prior.odometry_from_camera.q_wxyz[0] = 1;
-  return prior;
-}
-
-// Elements at a stride of the caller's, by which the library knows which fields the caller has; `first_bytes`: when
-// they were first published.
-template <typename Own, typename Element>
-sphc_status giveOutAll(sphc::Span<const Own> all, Element (*elementFrom)(const Own &), Element *to,
-                       size_t first_bytes, uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
-  if (!count || (capacity && !to)) return SPHC_E_ARGUMENT;
-  if (stride_bytes < first_bytes || stride_bytes % alignof(Element)) return SPHC_E_ARGUMENT;
-  auto *bytes = reinterpret_cast<unsigned char *>(to);
-  const size_t shared = std::min(size_t{stride_bytes}, sizeof(Element));
-  for (uint32_t i = 0; i < capacity && i < all.size(); ++i, bytes += stride_bytes) {
-    const Element own = elementFrom(all[i]);
-    std::memcpy(bytes, &own, shared);
-    std::memset(bytes + shared, 0, stride_bytes - shared);
-  }
-  *count = static_cast<uint32_t>(all.size());
-  return SPHC_OK;
-}
-
 }  // namespace
 
 sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t struct_size) {
@@ -112,7 +56,7 @@ sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t str
 }
 
 sphc_status sphc_localizer_result_init(sphc_localizer_result *result, size_t struct_size) {
-  return sphc::initStruct(emptyResult(), struct_size, result);
+  return sphc::initStruct(sphc::emptyResult(), struct_size, result);
 }
 
 sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct_size) {
@@ -120,7 +64,7 @@ sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct
 }
 
 sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size) {
-  return sphc::initStruct(emptyPrior(), struct_size, prior);
+  return sphc::initStruct(sphc::emptyPrior(), struct_size, prior);
 }
 
 sphc_status sphc_localizer_camera_init(sphc_localizer_camera *camera, size_t struct_size) {
@@ -140,7 +84,7 @@ sphc_status sphc_localizer_depth_view_init(sphc_localizer_depth_view *view, size
 }
 
 sphc_status sphc_localizer_prediction_init(sphc_localizer_prediction *prediction, size_t struct_size) {
-  return sphc::initStruct(emptyPrediction(), struct_size, prediction);
+  return sphc::initStruct(sphc::emptyPrediction(), struct_size, prediction);
 }
 
 sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory, sphc_message *message) {
@@ -306,97 +250,6 @@ void sphc_localizer_reset(sphc_localizer *localizer) {
   localizer->logged_faults = localizer->logged = localizer->stuck = 0;
 }
 
-sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localizer_frame *frame,
-                                   sphc_localizer_result *result) {
-  if (!localizer) return SPHC_E_ARGUMENT;
-  sphc_message *message = localizer->beginCall();
-  sphc::FrameCopy copy;
-  uint32_t struct_size = 0;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, true), &copy, message);
-  if (status == SPHC_OK) status = sphc::checkDepthImagesApart(copy.frame, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkColorImagesApart(copy.frame, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
-  if (status != SPHC_OK) return status;
-  Localizer &own_localizer = localizer->localizer;
-  const LocalizerResult answer = own_localizer.process(sphc::frameFrom(copy.frame, own_localizer.maps()));
-  return giveOut(answer, copy.frame, struct_size, localizer, result);
-}
-
-sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
-                                   sphc_features *features) {
-  if (!localizer || !features) return SPHC_E_ARGUMENT;
-  sphc_message *message = &features->message;  // the localizer's is of the thread that locates
-  message->text[0] = '\0';
-  sphc::FrameCopy copy;
-  sphc_status status = sphc::readFeatureFrame(frame, limitsOf(*localizer, true), &copy, message);
-  if (status == SPHC_OK) status = sphc::checkColorImagesApart(copy.frame, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkFeatures(*features, *localizer, message);
-  if (status != SPHC_OK) return status;
-  // Not looked at, and not validated.
-  copy.frame.prior = nullptr;
-  copy.frame.depth_camera = nullptr;
-  copy.frame.depth_view_count = 0;
-  localizer->localizer.extract(sphc::frameFrom(copy.frame, localizer->localizer.maps()), &features->features);
-  features->color_time_ns = copy.frame.color_time_ns;
-  features->of_frame = true;
-  return SPHC_OK;
-}
-
-sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localizer_frame *frame,
-                                  const sphc_features *features, sphc_localizer_result *result) {
-  if (!localizer) return SPHC_E_ARGUMENT;
-  sphc_message *message = localizer->beginCall();
-  sphc::FrameCopy copy;
-  uint32_t struct_size = 0;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
-  if (status == SPHC_OK) status = sphc::checkDepthImagesApart(copy.frame, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkFeaturesOf(copy.frame, features, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
-  if (status != SPHC_OK) return status;
-  Localizer &own_localizer = localizer->localizer;
-  const sphc::FrameInput input = sphc::frameFrom(copy.frame, own_localizer.maps());
-  return giveOut(own_localizer.locate(input, features->features), copy.frame, struct_size, localizer, result);
-}
-
 const char *sphc_localizer_message(const sphc_localizer *localizer) {
   return localizer ? localizer->message.text : "localizer is null";
-}
-
-double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
-                                        double rotation_rad) {
-  if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
-  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
-  if (!(covariance.trace() > 0)) return 0;  // of no pose, which is never known to the last digit
-  return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
-}
-
-sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time_ns,
-                                   sphc_localizer_prediction *prediction) {
-  if (!localizer) return SPHC_E_ARGUMENT;
-  uint32_t struct_size = 0;
-  const sphc_status status = sphc::checkStruct("prediction", prediction, nullptr, &struct_size);
-  if (status != SPHC_OK) return status;
-  const Localizer &own_localizer = localizer->localizer;
-  sphc::MovedPose moved;
-  const bool is_known = own_localizer.predict(time_ns, &moved);
-  sphc_localizer_prediction own =
-      is_known ? sphc::predictionFrom(moved, own_localizer.maps().idOf(moved.map)) : emptyPrediction();
-  own.time_ns = time_ns;
-  own.state = sphc::stateFrom(own_localizer.state());
-  sphc::writeStruct(own, struct_size, prediction);
-  return is_known ? SPHC_OK : SPHC_NOT_LOCALIZED;
-}
-
-sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_localizer_observation *observations,
-                                        uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
-  if (!localizer) return SPHC_E_ARGUMENT;
-  return giveOutAll(localizer->localizer.observations(), sphc::observationFrom, observations,
-                    offsetof(sphc_localizer_observation, camera), stride_bytes, capacity, count);
-}
-
-sphc_status sphc_localizer_hypotheses(const sphc_localizer *localizer, sphc_localizer_hypothesis *hypotheses,
-                                      uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
-  if (!localizer) return SPHC_E_ARGUMENT;
-  return giveOutAll(localizer->localizer.hypotheses(), sphc::hypothesisFrom, hypotheses,
-                    sizeof(sphc_localizer_hypothesis), stride_bytes, capacity, count);
 }
