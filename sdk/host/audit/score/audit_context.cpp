@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/audit/attack/photos.h"
-#include "host/audit/attack/real_or_fake.h"
 #include "host/audit/attack/stacks.h"
 #include "host/audit/score/layers.h"
 #include "host/publish/fakes/strategy.h"
@@ -38,8 +37,7 @@ std::string bytesOf(const Descriptor &descriptor) {
 
 RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, const std::vector<uint32_t> &layers,
                         const std::string &networks) {
-  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(map, networks);
-  turnCues(real, &guesses);
+  std::vector<RealOrFakeGuess> guesses = turnedGuesses(map, real, networks);
   RealOrFakeStudy study = {scoreRealOrFake(guesses, real, layers), {}};
   const auto strongest = std::max_element(study.scores.begin(), study.scores.end() - 1,
                                           [](const auto &a, const auto &b) { return a.auc < b.auc; });

@@ -15,6 +15,13 @@ void turnCues(const std::vector<bool> &real, std::vector<RealOrFakeGuess> *guess
   }
 }
 
+std::vector<RealOrFakeGuess> turnedGuesses(const Published &map, const std::vector<bool> &real,
+                                           const std::string &networks) {
+  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(map, networks);
+  turnCues(real, &guesses);
+  return guesses;
+}
+
 std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess> &guesses,
                                               const std::vector<bool> &real, const std::vector<uint32_t> &layers) {
   const auto reals = static_cast<double>(std::count(real.begin(), real.end(), true));

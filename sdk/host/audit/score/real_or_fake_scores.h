@@ -17,6 +17,9 @@ struct RealOrFakeScores {
 // A cue that points the other way in this map, so that its AUC is below 1/2, is turned over: who trains on such
 // maps knows which way it points.
 void turnCues(const std::vector<bool> &real, std::vector<RealOrFakeGuess> *guesses);
+// What all that `networks` has guesses of a map whose truth is known, its cues turned.
+std::vector<RealOrFakeGuess> turnedGuesses(const Published &map, const std::vector<bool> &real,
+                                           const std::string &networks);
 
 // One an attacker, and last "strongest": of each figure the most that any of them reaches.  `layers`: of layersOf,
 // or of who made the fakes; empty where fakes lie in no layers.

@@ -13,12 +13,12 @@ namespace sphc::host {
 // Entries that an attack takes for real.
 struct Exposure {
   size_t believed = 0, real = 0;
-  // Of what it believes, is real.  One release tells eta without any attack.
+  // The share of these that are real.  One release tells eta without any attack.
   double precision() const { return believed ? static_cast<double>(real) / static_cast<double>(believed) : 0; }
 };
 
 Exposure scoreEntries(const std::vector<uint32_t> &believed, const std::vector<EntryTruth> &truth);
-// Distinct descriptors among the really real entries of all releases.
+// Distinct descriptors among the entries that are real of all releases.
 size_t distinctReal(const std::vector<std::vector<uint32_t>> &believed, const std::vector<Published> &releases,
                     const std::vector<std::vector<EntryTruth>> &truths);
 

@@ -14,8 +14,7 @@ void run(char **arguments) {
   const KnownCloud cloud = readCloud(arguments[4]);
   const double eta = static_cast<double>(std::count(cloud.real.begin(), cloud.real.end(), true)) /
                      static_cast<double>(cloud.real.size());
-  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(cloud.published, arguments[1]);
-  turnCues(cloud.real, &guesses);
+  const std::vector<RealOrFakeGuess> guesses = turnedGuesses(cloud.published, cloud.real, arguments[1]);
   const auto scores = scoreRealOrFake(guesses, cloud.real, cloud.patches);
   for (const PrivacyRow &row : realOrFakeRows(scores, arguments[2], arguments[3], eta))
     std::puts(lineOf(row).c_str());

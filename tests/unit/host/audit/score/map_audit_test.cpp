@@ -60,8 +60,7 @@ TEST(MapAudit, TheFileItselfHolds) {
   double strongest = 0;
   std::vector<bool> real;
   for (const EntryTruth &entry : release.truth) real.push_back(entry.real);
-  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(release.map, SPHC_NETWORKS);
-  turnCues(real, &guesses);
+  const std::vector<RealOrFakeGuess> guesses = turnedGuesses(release.map, real, SPHC_NETWORKS);
   for (const RealOrFakeGuess &guess : guesses)
     strongest = std::max(strongest, areaUnderCurve(guess.scores, real).value);
   EXPECT_EQ(figure(result, "real_or_fake.auc").value, strongest);
