@@ -83,4 +83,15 @@ bool Coprocess::read(void *data, size_t size) {
   return true;
 }
 
+std::shared_ptr<Coprocess> startScript(const std::string &python, const std::string &script) {
+  try {
+    auto process = std::make_shared<Coprocess>(std::vector<std::string>{python, "-c", script});
+    char greeting[4];
+    const bool ready = process->read(greeting, sizeof greeting) && std::memcmp(greeting, "SPHC", 4) == 0;
+    return ready ? process : nullptr;
+  } catch (const std::runtime_error &) {
+    return nullptr;
+  }
+}
+
 }  // namespace sphc::host

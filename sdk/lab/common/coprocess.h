@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,9 @@ class Coprocess {
   int socket_ = -1;
   pid_t child_ = 0;
 };
+
+// Runs a script that says SPHC when it is ready.  Null where Python, or a package that the script imports, is not
+// there.
+std::shared_ptr<Coprocess> startScript(const std::string &python, const std::string &script);
 
 }  // namespace sphc::host

@@ -11,7 +11,8 @@ namespace sphc::host {
 
 constexpr double kSlowS = 0.05;  // of a run that takes longer once is enough
 
-// A random order, so that no variant always follows the same other one and finds the caches as that left them.
+// Numbers 0 .. count - 1 in a random order.  Of variants, so that none always follows the same other one and finds
+// the caches as that left them.
 std::vector<size_t> shuffledOrder(size_t count, Random *random);
 
 // Runs variant 0 .. count - 1 once in `repeat`; gives the seconds it took.

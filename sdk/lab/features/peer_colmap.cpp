@@ -1,4 +1,3 @@
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -16,18 +15,6 @@ struct Reply {
   double seconds;
 };
 static_assert(sizeof(Reply) == 16);
-
-// Null when Python or pycolmap is not there.
-std::shared_ptr<Coprocess> startColmap(const std::string &python) {
-  try {
-    auto process = std::make_shared<Coprocess>(std::vector<std::string>{python, "-c", kColmapScript});
-    char greeting[4];
-    const bool ready = process->read(greeting, sizeof greeting) && std::memcmp(greeting, "SPHC", 4) == 0;
-    return ready ? process : nullptr;
-  } catch (const std::runtime_error &) {
-    return nullptr;
-  }
-}
 
 bool send(Coprocess *process, const GrayView &image) {
   const uint32_t size[2] = {static_cast<uint32_t>(image.width), static_cast<uint32_t>(image.height)};
@@ -61,7 +48,7 @@ FoundFeatures ask(Coprocess *process, const GrayView &image) {
 
 FeaturesVariant colmapFeatures(const std::string &python) {
   const char *name = "colmap sift 1000";
-  const auto process = startColmap(python);
+  const auto process = startScript(python, kColmapScript);
   if (!process)
     return {name, kSiftBytes, false, nullptr,
             "not found by " + python + ": pip install pycolmap numpy, and name that Python with --python"};

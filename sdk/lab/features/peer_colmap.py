@@ -1,4 +1,4 @@
-"""COLMAP's SIFT through pycolmap, image by image over stdin and stdout; features_peer_colmap.cpp is the other end.
+"""COLMAP's SIFT through pycolmap, image by image over stdin and stdout; peer_colmap.cpp is the other end.
 
 Request: u32 width, height; the image's bytes.
 Reply: u32 count, 0; f64 seconds; f32[2] a pixel each; f32[128] a histogram each.

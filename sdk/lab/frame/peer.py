@@ -1,4 +1,4 @@
-"""Package peers of the whole frame, over stdin and stdout; frame_peer.cpp is the other end.
+"""Package peers of the whole frame, over stdin and stdout; peer.cpp is the other end.
 
 A message either way is u32 length, JSON, and where the JSON says so ("payload") that many bytes.  Peers work on an
 open point map: true 3D points of the mapping frames with their own descriptors, nothing hidden, no fake.  Colour pixels,

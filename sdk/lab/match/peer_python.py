@@ -1,4 +1,4 @@
-"""Matchers of faiss and hnswlib over stdin and stdout; match_peer_python.cpp is the other end.
+"""Matchers of faiss and hnswlib over stdin and stdout; peer_python.cpp is the other end.
 
 Greeting: SPHC, then u8 whether there is faiss, u8 whether there is hnswlib.
 Request: u32 order, handle, a, b.  Replies follow their order:
@@ -109,7 +109,7 @@ class Server:
             squared, indices = self.found
             distances = numpy.sqrt(numpy.maximum(squared, 0)).astype("<f4")
             return numpy.asarray(indices).astype("<i8").tobytes() + distances.tobytes()
-        else:
+        elif order == FORGET:
             self.indices.clear()
         return b""
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "lab/common/interleave.h"
 #include "lab/common/normal.h"
 
 namespace sphc::host {
@@ -11,18 +11,11 @@ namespace {
 
 constexpr double kFreshNoise = 0.5, kFakeVariance = 0.1;
 
-std::vector<size_t> shuffled(size_t count, Random *random) {
-  std::vector<size_t> order(count);
-  std::iota(order.begin(), order.end(), size_t{0});
-  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
-  return order;
-}
-
 size_t pick(size_t count, Random *random) { return random->below(static_cast<uint32_t>(count)); }
 
 // Which rows of the original make up `count` rows; those from `count of original` on are copies.
 std::vector<size_t> chooseRows(size_t available, size_t count, Random *random) {
-  std::vector<size_t> rows = shuffled(available, random);
+  std::vector<size_t> rows = shuffledOrder(available, random);
   if (count < available) rows.resize(count);
   while (rows.size() < count) rows.push_back(pick(available, random));
   return rows;
@@ -61,7 +54,7 @@ void resizeTruePoints(const PoseCase &original, size_t count, const CaseNoise &n
 void turn(std::vector<Correspondence> *rows, std::vector<bool> *is_true, double eta, Random *random) {
   const auto wanted = static_cast<size_t>(std::lround(eta * static_cast<double>(rows->size())));
   auto left = static_cast<size_t>(std::count(is_true->begin(), is_true->end(), true));
-  for (const size_t i : shuffled(rows->size(), random)) {
+  for (const size_t i : shuffledOrder(rows->size(), random)) {
     if (left <= wanted) return;
     if (!(*is_true)[i]) continue;
     (*rows)[i].direction = fakeAmong(*rows, *is_true, random);

@@ -1,4 +1,4 @@
-// The library's estimators as variants to measure.  Everything that touches their interface is in pose_ours.cpp.
+// The library's estimators as variants to measure.  Everything that touches their interface is in ours.cpp.
 #pragma once
 #include "lab/pose/variant.h"
 #include "runtime/types/depth_calibration.h"

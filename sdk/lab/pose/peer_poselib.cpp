@@ -1,4 +1,3 @@
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -24,18 +23,6 @@ struct Reply {
   uint32_t iterations, inliers, found, zero;
 };
 static_assert(sizeof(Reply) == 120);
-
-// Null when Python or PoseLib is not there.
-std::shared_ptr<Coprocess> startPoseLib(const std::string &python) {
-  try {
-    auto process = std::make_shared<Coprocess>(std::vector<std::string>{python, "-c", kPoseLibScript});
-    char greeting[4];
-    const bool ready = process->read(greeting, sizeof greeting) && std::memcmp(greeting, "SPHC", 4) == 0;
-    return ready ? process : nullptr;
-  } catch (const std::runtime_error &) {
-    return nullptr;
-  }
-}
 
 bool send(Coprocess *process, const PoseCase &c, uint64_t seed) {
   static_assert(sizeof(Vector2) == 16 && sizeof(Vector3) == 24);
@@ -66,7 +53,7 @@ PoseAnswer ask(Coprocess *process, const PoseCase &c, uint64_t seed) {
 }  // namespace
 
 PoseVariant poseLibPeer(const std::string &python) {
-  const auto process = startPoseLib(python);
+  const auto process = startScript(python, kPoseLibScript);
   if (!process)
     return {kPoseLibName, true, nullptr,
             "not found by " + python + ": pip install poselib numpy, and name that Python with --python"};

@@ -1,4 +1,4 @@
-"""PoseLib's absolute pose on true points, query by query over stdin and stdout; pose_peer_poselib.cpp is the other end.
+"""PoseLib's absolute pose on true points, query by query over stdin and stdout; peer_poselib.cpp is the other end.
 
 Request: u32 points, width, height, 0; u64 seed; f64 fx fy cx cy; f64[2] a pixel each; f64[3] a point each.
 Reply: f64[9] R, f64[3] t (camera_from_map), f64 seconds; u32 iterations, inliers, found, 0.
