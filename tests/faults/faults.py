@@ -206,7 +206,7 @@ class Server:
             if zlib.crc32(path.read_bytes()) not in released_crcs(path.parent / "spherecloud.ledger"):
                 yield "the ledger does not know %s" % path.name
 
-    def defects_of_message(self, call, fault):
+    def defects_of_message(self, call):
         said = self.said(".err")
         if not said.strip():
             yield "no message"
@@ -232,7 +232,7 @@ class Server:
             return "killed", [*self.defects_of_files(True), *self.defects_of_repeat()]
         # Who has no memory any more cannot remove a folder either.
         if status > 0 and call == "malloc" and (self.is_ended() or fault_name(fault).endswith("for good")):
-            return "refused", [*self.defects_of_message(call, fault), *self.defects_of_files(True), *self.defects_of_repeat()]
+            return "refused", [*self.defects_of_message(call), *self.defects_of_files(True), *self.defects_of_repeat()]
         if status < 0:
             return "crashed", ["ended by " + signal.Signals(-status).name + ": " + self.said(".err").strip()[-200:]]
         defects = list(self.defects_of_files(self.scenario.keeps_cut))
@@ -241,7 +241,7 @@ class Server:
             defects += ["exit status 0 without " + name for name in self.after
                         if not self.is_new(name, now) and not (self.is_less() and name in now)]
             return "done", defects
-        return "refused", defects + list(self.defects_of_message(call, fault))
+        return "refused", defects + list(self.defects_of_message(call))
 
 
 def measure(server, most, kinds, show):

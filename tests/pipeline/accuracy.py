@@ -12,7 +12,6 @@ known to all, so that rows can be compared; they protect nothing.
 import argparse
 import collections
 import concurrent.futures
-import csv
 import json
 import os
 import pathlib
@@ -24,7 +23,7 @@ import time
 sys.dont_write_bytecode = True
 import confidence
 from private_key import NUMBERS, numbered_key
-from recordings import HERE, Recording, absent, frames, run, write_csv
+from recordings import HERE, Recording, absent, frames, read_rows, run, write_csv
 
 RESULTS, SPREAD, CONFIDENCE = HERE / "accuracy_keys.csv", HERE / "accuracy.csv", HERE / "confidence.csv"
 MODES = {
@@ -186,11 +185,6 @@ def measure(tool, name, maps, tell):
                 yield from rows
 
 
-def read(path):
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def write(path, rows):
     write_csv(path, [list(rows[0]), *([row[column] for column in rows[0]] for row in rows)])
 
@@ -239,8 +233,8 @@ def update(tool, names):
     def tell(words):
         print("[%5.0f s] %s" % (time.monotonic() - begin, words), flush=True)
 
-    rows = {keyed(row): row for row in read(RESULTS)} if RESULTS.exists() else {}
-    stated = {keyed_alike(row): row for row in read(CONFIDENCE)} if CONFIDENCE.exists() else {}
+    rows = {keyed(row): row for row in read_rows(RESULTS)} if RESULTS.exists() else {}
+    stated = {keyed_alike(row): row for row in read_rows(CONFIDENCE)} if CONFIDENCE.exists() else {}
     for name in names or recordings():
         poses = collections.defaultdict(list)
         for row, found in measure(tool, name, list(maps_of(name)), tell):
@@ -297,7 +291,7 @@ def differences(row, committed):
 
 
 def check(tool, name):
-    committed = {keyed(row): row for row in read(RESULTS)}
+    committed = {keyed(row): row for row in read_rows(RESULTS)}
     found, begin = [], time.monotonic()
     for row, _ in measure(tool, name, checked_maps(name), lambda words: print(words, flush=True)):
         print("%.0f s:" % (time.monotonic() - begin), *row.values(), flush=True)
@@ -309,7 +303,7 @@ def check(tool, name):
 
 
 def check_committed():
-    rows = read(RESULTS)
+    rows = read_rows(RESULTS)
     found = ["%s: %s" % (" ".join(keyed(row)), fault) for row in rows if row["key"] == "1" for fault in faults(row)]
     found += ["%s: %s" % (" ".join(row[column] for column in KEYED[:-1]), fault)
               for row in spread(rows) for fault in faults_over_keys(row)]
@@ -317,13 +311,13 @@ def check_committed():
     found += ["%s: not in %s" % (" ".join(row), RESULTS.name) for row in wanted if row not in present]
     found += ["%s: twice or needless in %s" % (" ".join(row), RESULTS.name)
               for row, times in collections.Counter(present).items() if times > 1 or row not in wanted]
-    stated = read(CONFIDENCE)
+    stated = read_rows(CONFIDENCE)
     found += ["%s: %s" % (" ".join(keyed_alike(row)), fault) for row in stated for fault in confidence.faults(row)]
     # Where poses were given out there is a row for them, and no other.
     with_poses = {keyed_alike(row) for row in rows if float(row["localized_percent"]) and not is_elsewhere(row["recording"])}
     found += ["%s: in one of %s and %s alone" % (" ".join(key), RESULTS.name, CONFIDENCE.name)
               for key in sorted(with_poses ^ {keyed_alike(row) for row in stated})]
-    if spread(rows) != read(SPREAD):
+    if spread(rows) != read_rows(SPREAD):
         found.append("%s is not what follows from %s" % (SPREAD.name, RESULTS.name))
     sys.exit("\n".join(found) if found else 0)
 

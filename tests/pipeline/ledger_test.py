@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A ledger of which a part is measured anew keeps the rest, and every committed one is as its script would leave it, with all its rows."""
 import collections
-import csv
 import pathlib
 import sys
 import tempfile
@@ -24,7 +23,7 @@ import maps
 import nasty
 import rolling
 import worst
-from recordings import HERE, Ledger, ran, run, write_rows
+from recordings import HERE, Ledger, ran, read_rows, run, write_rows
 
 COLUMNS = ["recording", "case", "value"]
 # Scripts that state their rows, and the columns that say what a row is of; accuracy.py has a test of its own.
@@ -64,11 +63,6 @@ COUNTED = {
     "soak.csv": 18,
     "worst.csv": {"redkitchen": 16, "simulated": 16},
 }
-
-
-def rows_of(path):
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
 
 
 def faults_of_stated(rows, columns, wanted):
@@ -135,18 +129,18 @@ class Ledgers(unittest.TestCase):
 
     def test_every_ledger_has_the_rows_that_its_script_states(self):
         for script, columns in STATED.items():
-            self.assertEqual([], list(faults_of_stated(rows_of(script.RESULTS), columns, script.wanted_rows())), script.__name__)
+            self.assertEqual([], list(faults_of_stated(read_rows(script.RESULTS), columns, script.wanted_rows())), script.__name__)
 
     def test_every_other_ledger_has_as_many_rows_as_are_counted(self):
         for name, counts in COUNTED.items():
-            self.assertEqual([], list(faults_of_counted(rows_of(HERE / name), counts)), name)
+            self.assertEqual([], list(faults_of_counted(read_rows(HERE / name), counts)), name)
 
     def test_no_ledger_is_left_out(self):
         held = [*(script.RESULTS.name for script in STATED), *COUNTED, *OF_ACCURACY]
         self.assertEqual(sorted(path.name for path in HERE.glob("*.csv")), sorted(held))
 
     def test_a_lost_row_is_seen(self):
-        rows = rows_of(cameras.RESULTS)
+        rows = read_rows(cameras.RESULTS)
         self.assertEqual(["('headset', 'headset', 'tracking') is missing"],
                          list(faults_of_stated(rows[:1] + rows[2:], cameras.KEY, cameras.wanted_rows())))
         self.assertEqual(["('headset', 'headset', 'single') is twice or needless"],

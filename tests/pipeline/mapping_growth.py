@@ -19,7 +19,7 @@ import time
 
 sys.dont_write_bytecode = True
 from mapping import ROOMS
-from recordings import HERE, run, write_csv
+from recordings import HERE, read_rows, run, write_csv
 
 RESULTS = HERE / "mapping_growth.csv"
 # Options of `simulate`, and how many frames.
@@ -96,8 +96,7 @@ def main():
     if arguments.spherecloud:
         measure(arguments)
     if arguments.plot:
-        with arguments.results.open(newline="") as file:
-            plot(list(csv.DictReader(file)), arguments.plot)
+        plot(read_rows(arguments.results), arguments.plot)
 
 
 def measure(arguments):

@@ -18,6 +18,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from accuracy import WORST_CM, WORST_DEG
+from nasty import errors
 from private_key import key_of
 from recordings import HERE, run, write_rows
 
@@ -69,16 +70,12 @@ class Room:
             yield frame, rooms[frame["map"]] if frame["map"] is not None else None
 
 
-def error_of(frame):
-    return 100 * frame["error"]["translation_m"], frame["error"]["rotation_deg"]
-
-
 def row_of(maps, answers):
     """answers: (room, frame, room of the map that was found)."""
     localized = [(room, frame, found) for room, frame, found in answers if frame["localized"]]
     right = [(room, frame) for room, frame, found in localized if found.seed == room.seed]
-    close = [f for _, f in right if error_of(f)[0] <= 5 and error_of(f)[1] <= 5]
-    sound = [f for _, f in right if error_of(f)[0] <= WORST_CM and error_of(f)[1] <= WORST_DEG]
+    close = [f for _, f in right if errors(f)[0] <= 5 and errors(f)[1] <= 5]
+    sound = [f for _, f in right if errors(f)[0] <= WORST_CM and errors(f)[1] <= WORST_DEG]
     share = lambda part, whole: "%.1f" % (100 * len(part) / max(1, len(whole)))
     return dict(zip(COLUMNS, [
         maps, len(answers), share(localized, answers), share(close, answers), share(right, localized), len(localized) - len(sound),

@@ -28,7 +28,7 @@ import confidence
 import room_options
 from accuracy import WORST_CM, WORST_DEG
 from private_key import key_of
-from recordings import HERE, run, write_csv
+from recordings import HERE, read_rows, run, write_csv
 
 RESULTS = HERE / "nasty.csv"
 # Seeds of rooms and walks, rooms of each world, and from one to another room.  Other scripts have some of the seeds too: moving.py
@@ -253,8 +253,7 @@ def measure(tool, keep, worlds, count, lines):
 def read(path):
     if not path.exists():
         return []
-    with path.open(newline="") as rows:
-        return [row for row in csv.DictReader(rows) if list(row) == COLUMNS and row["world"] in WORLDS]
+    return [row for row in read_rows(path) if list(row) == COLUMNS and row["world"] in WORLDS]
 
 
 def write(path, rows):

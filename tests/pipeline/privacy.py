@@ -10,7 +10,6 @@ all places together, and are made anew of the table for every strategy whose pic
 """
 import argparse
 import collections
-import csv
 import os
 import pathlib
 import sys
@@ -18,7 +17,7 @@ import tempfile
 from statistics import mean
 
 from private_key import private_key
-from recordings import HERE, ran, write_rows
+from recordings import HERE, ran, read_rows, write_rows
 
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
 RESULTS = HERE / "privacy.csv"
@@ -70,8 +69,7 @@ def audited(options, folder, name, recording, strategy):
         ran([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
                      name, "--json", *(word for attack in options.only for word in ("--only", attack))],
             accepted=(0, 4, 5))
-        with figures.open(newline="") as rows:
-            yield list(csv.DictReader(rows))
+        yield read_rows(figures)
 
 
 def name_of(row):
@@ -93,11 +91,6 @@ def means(of_keys):
     return {name: {**row, "value": "%.4g" % mean(values[name])} for name, row in first.items()}
 
 
-def read_results():
-    with RESULTS.open(newline="") as results:
-        return list(csv.DictReader(results))
-
-
 def write_results(rows):
     write_rows(RESULTS, list(rows[0]), rows)
 
@@ -105,7 +98,7 @@ def write_results(rows):
 def replace(fresh):
     """In the table: rows of the same name in their place, others after the last of their group."""
     fresh = dict(fresh)
-    rows = [fresh.pop(name_of(row), row) for row in read_results()]
+    rows = [fresh.pop(name_of(row), row) for row in read_rows(RESULTS)]
     for row in fresh.values():
         group = [i for i, other in enumerate(rows)
                  if all(other[column] == row[column] for column in ("attack", "map", "strategy"))]
@@ -132,7 +125,7 @@ def put_together(rows):
 
 
 def replace_all():
-    rows = read_results()
+    rows = read_rows(RESULTS)
     fresh = list(put_together(rows))
     strategies = {row["strategy"] for row in fresh}
     write_results([row for row in rows if (row["attack"], row["map"]) != ("audit", "all") or row["strategy"] not in strategies]

@@ -5,7 +5,6 @@ attacked, against ceilings; and the same attackers on maps that must not pass.
     privacy_gate.py --spherecloud BIN
 """
 import argparse
-import csv
 import json
 import pathlib
 import sys
@@ -13,7 +12,7 @@ import tempfile
 from statistics import mean
 
 sys.dont_write_bytecode = True
-from recordings import ran
+from recordings import ran, read_rows
 
 FRAMES, RATE, ROOM = 20, 2.5, 907
 KEYS = range(1, 4)
@@ -59,8 +58,7 @@ class Gate:
 
     def others(self):
         """AUC of each attacker of the last audit but the networks of stacks."""
-        with open(self.folder / "figures.csv") as file:
-            rows = [row for row in csv.DictReader(file) if row["attack"] == "real_or_fake" and row["metric"] == "auc"]
+        rows = [row for row in read_rows(self.folder / "figures.csv") if row["attack"] == "real_or_fake" and row["metric"] == "auc"]
         return {row["variant"]: float(row["value"]) for row in rows
                 if row["variant"] != "strongest" and not row["variant"].startswith("stacks of ")}
 

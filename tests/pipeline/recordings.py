@@ -77,6 +77,12 @@ def every_other_block(source, folder, block, remainder):
     shutil.copyfile(source / "groundtruth.txt", folder / "groundtruth.txt")
 
 
+def read_rows(path):
+    """Of a file with a head of names, a dict each."""
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def write_csv(path, rows):
     """Whole, or not at all."""
     part = path.with_suffix(".part")
