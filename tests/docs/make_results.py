@@ -146,11 +146,8 @@ def at_a_glance(rows):
     return table(columns, [[row[name] for name in columns] for row in chosen])
 
 
-def localization(pipeline):
+def localization(rows):
     """(title, file, target, what the figures are, the tables): the localizer and its stages."""
-    def rows(name):
-        return read(pipeline / name)
-
     return [
         ("Accuracy", "pipeline/accuracy.csv", "update_results",
          "Whole recordings through `spherecloud localize`, 800 keypoints a frame. Percentages are of all frames; errors are\n"
@@ -187,11 +184,8 @@ def localization(pipeline):
     ]
 
 
-def others(pipeline):
-    """Confidence, the systems of the literature, recordings."""
-    def rows(name):
-        return read(pipeline / name)
-
+def trust(rows):
+    """How far poses are to be believed."""
     return [
         ("Confidence", "pipeline/confidence.csv", "update_results",
          "The poses of the accuracy rows, pooled over the keys: how often they are right, what they said, and their errors\n"
@@ -202,6 +196,12 @@ def others(pipeline):
          "Simulated rooms that combine what makes real ones hard. Wrong: beyond 25 cm or 10 deg. Method:\n"
          "[testing.md](testing.md#hard-worlds).",
          flat(rows("nasty.csv"), ["world"])),
+    ]
+
+
+def mapping(rows):
+    """Maps of walks without poses."""
+    return [
         ("Mapping without poses", "pipeline/mapping.csv", "mapping_results",
          "Walks mapped by their images and depths alone (`none`), and with poses that are off by 5 cm and 1 deg each (`approximate`) or\n"
          "drift by 1 % and 1 deg after a metre (`odometry`), beside the poses that the recordings hold. `ate`: root of the mean square of\n"
@@ -232,6 +232,12 @@ def others(pipeline):
          "point, and turn and shift of `color_from_depth` are off, and the path's error after a rigid alignment. *spoiled*: off at\n"
          "random; *sound*: as the recording has it, which for real ones counts as the truth. Method: [mapping.md](mapping.md).",
          flat(rows("calibration_fit.csv"), ["given", "calibration"])),
+    ]
+
+
+def commands(rows):
+    """What the command does when the system fails it, and says while a walk is recorded."""
+    return [
         ("Faults of the system", "pipeline/faults.csv", "faults_results",
          "Commands that write, with one call of the system that fails in each run, or with the end of the process there. `calls`: how many\n"
          "of the kind the command makes; `tried`: how many of them failed, one a run. *Refused*: exit status 1 with a cause; *done*: all files\n"
@@ -242,6 +248,12 @@ def others(pipeline):
          "beyond 25 cm or 10 deg of the recording's poses; `loops`: what is told of them. The last columns count frames, each alone.\n"
          "Method: [guide.md](guide.md).",
          flat(rows("guide.csv"), ["world"])),
+    ]
+
+
+def devices(rows):
+    """Several maps, devices, shutters and cameras."""
+    return [
         ("Many maps", "pipeline/maps.csv", "maps_results",
          "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
@@ -258,6 +270,12 @@ def others(pipeline):
          "Cold frames of twelve simulated rooms with bare walls, by the first camera of a rig and by more of them, with as many\n"
          "keypoints in all: as the walk looks, and with nothing but a wall ahead. Method: [localizer.md](localizer.md#rigs-of-several-cameras).",
          flat(rows("rig.csv"), ["view"])),
+    ]
+
+
+def sensors(rows):
+    """Sensors that are broken, doubtful or late, and what is said of them."""
+    return [
         ("Broken sensors", "pipeline/negative.csv", "negative_results",
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",
@@ -276,6 +294,12 @@ def others(pipeline):
          "Frames without a pose under conditions, and what they are told. `told`: the hint of the condition; of healthy frames, none.\n"
          "Method: [hints.md](hints.md).",
          flat(rows("hints.csv"), ["place"])),
+    ]
+
+
+def costs(rows):
+    """What frames cost."""
+    return [
         ("Deadlines", "pipeline/deadline.csv", "deadline_results",
          "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
          "Each frame goes through all deadlines of a table before the next one does. The last of `single` and `tracking` is half of the median\n"
@@ -291,6 +315,12 @@ def others(pipeline):
          "Cold frames on a map of 50 000 points, by one thread and by several in turn: the median wall time of one over that of\n"
          "the row. `same bytes`: frames with the result of one thread. Method: [localizer.md](localizer.md#on-several-cores).",
          flat(rows("parallel.csv"), ["recording"])),
+    ]
+
+
+def peers(rows):
+    """The systems of the literature, codecs, and descriptors."""
+    return [
         ("Baselines", "pipeline/compare.csv", "compare_results",
          "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
          "library at eta 33 %. Method: [baselines.md](baselines.md).",
@@ -306,23 +336,23 @@ def others(pipeline):
     ]
 
 
-def robustness(pipeline):
+def robustness(rows):
     """Fuzzers, the soak, and what tests reach."""
     return [
         ("Fuzzing", "pipeline/fuzz.csv", "fuzz_results",
          "libFuzzer on one core of a machine that did other work too. `edges`: of the code, reached; `inputs`: that add coverage; `findings`:\n"
          "inputs that crashed, took more than 20 s or left a promise unkept. A run of `map` reads a map twice, as it is and with its checksums\n"
          "made right; a run of `session` makes up to 40 calls. Method: [testing.md](testing.md#fuzzing).",
-         flat(read(pipeline / "fuzz.csv"), ["sanitizers"])),
+         flat(rows("fuzz.csv"), ["sanitizers"])),
         ("Soak", "pipeline/soak.csv", "soak_results",
          "A headset in fast motion; every answer is checked, and a promise that is not kept ends the run. `elsewhere`: frames of a room without a\n"
          "map; wrong poses: of frames that are not broken, beyond 25 cm or 10 deg. Method: [testing.md](testing.md#soak).",
-         flat(read(pipeline / "soak.csv"), [])),
+         flat(rows("soak.csv"), [])),
         ("Coverage", "pipeline/coverage.csv", "coverage_results",
          "Lines and branches that tests reach (clang). `device`: the libraries of a device, by their unit tests and those of the C interface; `parsers`:\n"
          "what reads files of others, by its unit tests and mutations of seeds.\n"
          "Method: [testing.md](testing.md#coverage).",
-         flat(read(pipeline / "coverage.csv"), [])),
+         flat(rows("coverage.csv"), [])),
     ]
 
 
@@ -373,8 +403,13 @@ def page(root):
     pipeline = Path(root) / "tests" / "pipeline"
     parts = [INTRO, f"## At a glance\n\nThe default fakes (patchwork, eta 1/3), each frame by itself:\n\n"
                     f"{at_a_glance(read(pipeline / 'accuracy.csv'))}"]
-    sections = (localization(pipeline) + others(pipeline) + robustness(pipeline) + privacy(read(pipeline / "privacy.csv"))
-                + memory_sections(Path(root) / "tests" / "memory"))
+
+    def rows(name):
+        return read(pipeline / name)
+
+    of_pipeline = localization, trust, mapping, commands, devices, sensors, costs, peers, robustness
+    sections = [section for part in of_pipeline for section in part(rows)]
+    sections += privacy(rows("privacy.csv")) + memory_sections(Path(root) / "tests" / "memory")
     for title, file, target, words, tables in sections:
         measured = f", measured by `ninja {target}`" if target else ""
         parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}){measured}.\n{words}\n\n{tables}")
