@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -23,13 +24,8 @@ TEST(PrivateFile, IsOneThatOnlyItsOwnerReads) {
   EXPECT_NO_THROW(checkPrivate(path, "it opens doors"));
   for (const fs::perms more : {fs::perms::group_read, fs::perms::others_read, fs::perms::group_write}) {
     fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write | more);
-    try {
-      checkPrivate(path, "it opens doors");
-      ADD_FAILURE() << "others may read it";
-    } catch (const std::runtime_error &error) {
-      EXPECT_EQ(std::string(error.what()),
-                "key file " + path + ": others may read it, and it opens doors; run: chmod 600 " + path);
-    }
+    EXPECT_EQ(test::refusal([&] { checkPrivate(path, "it opens doors"); }),
+              "key file " + path + ": others may read it, and it opens doors; run: chmod 600 " + path);
   }
   fs::remove(path);
   EXPECT_NO_THROW(checkPrivate(path, "it opens doors"));

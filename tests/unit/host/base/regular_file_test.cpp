@@ -6,9 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 
 #include "tests/support/nobody.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -17,12 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string refusal(const std::string &path) {
-  try {
-    checkIsFile(path, "the map itself");
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { checkIsFile(path, "the map itself"); });
 }
 
 TEST(RegularFile, IsWhatIsReadToItsEnd) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -28,12 +29,7 @@ class WriteFileTest : public testing::Test {
     return static_cast<size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
   static std::string refusal(const std::string &path, const std::string &text) {
-    try {
-      writeFile(path, text);
-    } catch (const std::runtime_error &error) {
-      return error.what();
-    }
-    return "written";
+    return test::refusal([&] { writeFile(path, text); });
   }
 
   const test::TempFolder folder_;
@@ -110,12 +106,8 @@ TEST_F(WriteFileTest, AFolderThatIsNotThereIsNamed) {
 TEST_F(WriteFileTest, ANewFileTakesNobodysPlaceAndLeavesNothing) {
   writeNewFile(folder_ / "key", "first", Readers::kOwner);
   EXPECT_EQ(modeOf(folder_ / "key"), 0600u);
-  try {
-    writeNewFile(folder_ / "key", "second", Readers::kOwner);
-    ADD_FAILURE() << "it was replaced";
-  } catch (const std::runtime_error &error) {
-    EXPECT_THAT(error.what(), HasSubstr("something has taken its name"));
-  }
+  EXPECT_THAT(test::refusal([&] { writeNewFile(folder_ / "key", "second", Readers::kOwner); }),
+              HasSubstr("something has taken its name"));
   EXPECT_THROW(writeNewFile(folder_ / "absent/key", "third"), std::runtime_error);
   EXPECT_EQ(folder_.read("key"), "first");
   EXPECT_EQ(entries(), 1u);

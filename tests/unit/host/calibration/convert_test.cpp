@@ -7,6 +7,7 @@
 
 #include "golden.h"
 #include "host/calibration/compare.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -74,12 +75,8 @@ INSTANTIATE_TEST_SUITE_P(Each, RoundTrip, testing::Range<size_t>(0, 6), [](const
 TEST(Fit, RefusesWhatTheFormatCannotHoldUnlessToldSo) {
   const sphc_rig calibration = calibrationOf(kCameras[3], kCameras[4]);
   for (const Format format : {Format::kKalibr, Format::kAzureKinect}) {
-    try {
-      fitToFormat(calibration, format, false);
-      ADD_FAILURE();
-    } catch (const std::runtime_error &error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("--approximate"));
-    }
+    EXPECT_THAT(test::refusal([&] { fitToFormat(calibration, format, false); }),
+                testing::HasSubstr("--approximate"));
     const sphc_rig fitted = fitToFormat(calibration, format, true);
     const CalibrationDifference difference = compareCalibrations(calibration, fitted);
     EXPECT_LT(difference.color.largest_px, 10);  // of a lens that bends as strongly as an Azure Kinect's
@@ -127,27 +124,17 @@ TEST(ReadFiles, AFolderOfTwoFormatsIsReadAsTheOneThatIsSaid) {
   folder.write("cameras.txt", kColmapCamerasFile);
   folder.write("rigs.txt", kColmapRigsFile);
   const std::string path = folder.path().string();
-  try {
-    readCalibrationFiles({path}, {}, {});
-    ADD_FAILURE() << "nobody said which";
-  } catch (const std::runtime_error &error) {
-    EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr(path + ": holds both color.yaml of ROS and cameras.txt"),
-                               testing::HasSubstr("--format ros or --format colmap")));
-  }
+  EXPECT_THAT(test::refusal([&] { readCalibrationFiles({path}, {}, {}); }),
+              testing::AllOf(testing::HasSubstr(path + ": holds both color.yaml of ROS and cameras.txt"),
+                             testing::HasSubstr("--format ros or --format colmap")));
   EXPECT_EQ(readCalibrationFiles({path}, Format::kColmap, {}).calibration.color_camera.width, 3072u);
   EXPECT_EQ(readCalibrationFiles({path}, Format::kRos, {}).calibration.color_camera.width, ros.color_camera.width);
 }
 
 TEST(ReadFiles, SaysWhichFileIsWrong) {
   const test::TempFolder folder;
-  const auto refusal = [](const std::string &path) -> std::string {
-    try {
-      readCalibrationFiles({path}, {}, {});
-    } catch (const std::runtime_error &error) {
-      return error.what();
-    }
-    return "not refused";
+  const auto refusal = [](const std::string &path) {
+    return test::refusal([&] { readCalibrationFiles({path}, {}, {}); });
   };
   using testing::HasSubstr;
   EXPECT_THAT(refusal("/nonexistent/file"), HasSubstr("/nonexistent/file: no such file"));

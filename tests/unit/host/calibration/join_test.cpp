@@ -3,17 +3,13 @@
 #include <gmock/gmock.h>
 
 #include "golden.h"
+#include "tests/support/refusal.h"
 
 namespace sphc::host {
 namespace {
 
 std::string refusal(const std::vector<CalibrationPart> &parts, const JoinOptions &options) {
-  try {
-    joinParts(parts, options);
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "not refused";
+  return test::refusal([&] { joinParts(parts, options); });
 }
 
 const sphc_rigid kBaseline = {{1, 0, 0, 0}, {0.1, 0, 0}};

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tests/support/golden_encryption.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -19,12 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string refusalOf(const std::vector<uint8_t> &file, const EncryptionKey &key) {
-  try {
-    decryptMap("a.enc", file, key);
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "decrypted";
+  return test::refusal([&] { decryptMap("a.enc", file, key); });
 }
 
 EncryptionKey goldenKey() {

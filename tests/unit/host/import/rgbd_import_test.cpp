@@ -10,6 +10,7 @@
 #include "host/frames/recording.h"
 #include "host/import/near_duplicates.h"
 #include "tests/contract/tiny_recording.h"
+#include "tests/support/refusal.h"
 #include "tests/support/session.h"
 #include "tests/support/temp_folder.h"
 
@@ -26,12 +27,7 @@ class RgbdImportTest : public testing::Test {
     RecordingOptions options;
     options.folder = walk();
     RgbdImportSummary summary;
-    try {
-      importRgbd({{openRecording(options).get()}}, {}, {}, &summary);
-    } catch (const std::runtime_error &error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal([&] { importRgbd({{openRecording(options).get()}}, {}, {}, &summary); });
   }
   // The poses of all frames; none where `pose` is empty.
   void setPoses(const std::string &pose) const {

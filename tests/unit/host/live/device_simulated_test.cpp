@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <vector>
 
 #include "drivers/simulated/simulated.h"
 #include "host/live/device.h"
+#include "tests/support/refusal.h"
 
 namespace sphc::host {
 namespace {
@@ -53,12 +53,7 @@ TEST(SimulatedDevice, SaysWhoseCamerasItHas) {
 }
 
 std::string refusalOf(const std::string &spec) {
-  try {
-    openDevice(spec, {});
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { openDevice(spec, {}); });
 }
 
 TEST(SimulatedDevice, RefusesWhatIsNoRowTime) {

@@ -6,21 +6,13 @@
 #include <stdexcept>
 
 #include "tests/contract/tiny_recording.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr uint32_t kRecordedFrames = 6;
-
-std::string messageOf(const std::function<void()> &call) {
-  try {
-    call();
-  } catch (const std::exception &error) {
-    return error.what();
-  }
-  return "";
-}
 
 class RigTest : public testing::Test {
  protected:
@@ -307,7 +299,7 @@ TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
     return wish;
   }();
   const auto says = [](const std::string &spec, const Wish &wish) {
-    return messageOf([&] { openDevice(spec, wish); });
+    return test::refusal([&] { openDevice(spec, wish); });
   };
   EXPECT_NE(says("webcam:0", both).find("v4l2:, libcamera:"), std::string::npos);
   EXPECT_NE(says(std::string(300, 'x'), both).find("no such kind of camera"), std::string::npos);

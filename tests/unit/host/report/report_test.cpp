@@ -10,6 +10,7 @@
 #include "frames.h"
 #include "host/report/file.h"
 #include "host/report/page.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -282,12 +283,8 @@ TEST_F(ReportTest, APageOfAnEarlierRunDoesNotStayOverNewFigures) {
 }
 
 TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
-  try {
-    writeReport("/dev/null/report", run_, nullptr);
-    FAIL();
-  } catch (const std::runtime_error &error) {
-    EXPECT_THAT(error.what(), HasSubstr("/dev/null/report"));
-  }
+  EXPECT_THAT(test::refusal([&] { writeReport("/dev/null/report", run_, nullptr); }),
+              HasSubstr("/dev/null/report"));
 }
 
 }  // namespace

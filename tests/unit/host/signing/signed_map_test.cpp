@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "tests/support/golden_signature.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -36,12 +36,7 @@ class SignedMapTest : public testing::Test {
   }
   sphc_signature_statement check() const { return checkSignature(trust_, "a.sphc", map_.data(), map_.size()); }
   std::string refusal() const {
-    try {
-      check();
-    } catch (const std::runtime_error &error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal([&] { check(); });
   }
 
   const test::TempFolder folder_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pose_bytes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -18,12 +19,7 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal(const PoseBytes &bytes) {
-  try {
-    parsePoseFile(bytes.span(), "FILE");
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "accepted";
+  return sphc::test::refusal([&] { parsePoseFile(bytes.span(), "FILE"); });
 }
 
 TEST(PoseFile, ReadsEveryField) {
@@ -149,12 +145,7 @@ TEST(PoseFile, TruePointsAreFoundBesideTheFile) {
 }
 
 TEST(PoseFile, AMissingFileIsToldByName) {
-  try {
-    readPoseFile("/nowhere/x.bin");
-    FAIL();
-  } catch (const std::runtime_error &error) {
-    EXPECT_THAT(error.what(), HasSubstr("/nowhere/x.bin"));
-  }
+  EXPECT_THAT(sphc::test::refusal([] { readPoseFile("/nowhere/x.bin"); }), HasSubstr("/nowhere/x.bin"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "host/base/usage_error.h"
 #include "host/cli/common/new_recording.h"
 #include "tests/support/nobody.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace sphc::host {
@@ -19,6 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+
+std::string said(const FileUse &files) {
+  const std::string refused = test::refusal([&] { files.check(); });
+  return refused.empty() ? "fine" : refused;
+}
 
 class FileUseTest : public testing::Test {
  protected:
@@ -149,12 +155,7 @@ TEST_F(FileUseTest, AKeyIsANewFileInAFolderThatIsThere) {
   const auto refused = [](const std::string &path) {
     FileUse files(true);
     files.writesNew("--out", path);
-    try {
-      files.check();
-    } catch (const std::runtime_error &error) {
-      return std::string(error.what());
-    }
-    return std::string("fine");
+    return said(files);
   };
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   fs::create_symlink("nowhere", folder_ / "link");
@@ -203,12 +204,7 @@ TEST_F(FileUseTest, AFolderIsOursByOneOfItsFiles) {
     FileUse files(force);
     files.reads("--map", folder_ / "map");
     files.writesFolder("--report", folder_ / name, holds("a page of ours"));
-    try {
-      files.check();
-    } catch (const std::runtime_error &error) {
-      return std::string(error.what());
-    }
-    return std::string("fine");
+    return said(files);
   };
   EXPECT_EQ(refused("new", false), "fine");
   fs::create_directory(folder_ / "empty");
@@ -241,12 +237,7 @@ TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
   const auto refused = [&](const std::string &name) {
     FileUse files(true);
     files.writesRecording("--out", folder_ / name);
-    try {
-      files.check();
-    } catch (const std::runtime_error &error) {
-      return std::string(error.what());
-    }
-    return std::string("fine");
+    return said(files);
   };
   EXPECT_EQ(refused("new.mcap"), "fine");
   EXPECT_EQ(refused("new/"), "fine");
