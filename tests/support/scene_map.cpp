@@ -1,16 +1,9 @@
 #include "tests/support/scene_map.h"
 
+#include "tests/support/arena_memory.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::test {
-namespace {
-
-void *alignedStart(std::vector<uint8_t> *memory) {
-  const auto address = reinterpret_cast<uintptr_t>(memory->data());
-  return memory->data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
-}
-
-}  // namespace
 
 ViewDescriber::ViewDescriber(const sphc_camera &camera, uint32_t keypoints)
     : aligner_(Camera{camera}, Camera{camera}, Rigid(), {0.001, 0.2, 6, 0.002, 0}),

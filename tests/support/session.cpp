@@ -1,14 +1,10 @@
 #include "tests/support/session.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 namespace sphc::test {
 namespace {
-
-constexpr size_t kGuard = 256;
-constexpr uint8_t kGuardByte = 0xC5, kDirt = 0xEE;
 
 void require(sphc_status status, const sphc_message &message) {
   if (status == SPHC_OK) return;
@@ -17,22 +13,6 @@ void require(sphc_status status, const sphc_message &message) {
 }
 
 }  // namespace
-
-GuardedMemory::GuardedMemory(uint64_t bytes, size_t alignment)
-    : storage_(static_cast<size_t>(bytes) + alignment + 2 * kGuard, kGuardByte),
-      bytes_(static_cast<size_t>(bytes)) {
-  const auto first = reinterpret_cast<uintptr_t>(storage_.data()) + kGuard;
-  start_ = storage_.data() + kGuard + (alignment - first % alignment) % alignment;
-  std::fill_n(start_, bytes_, kDirt);  // the library must not count on zeros
-}
-
-bool GuardedMemory::guardsIntact() const {
-  for (const uint8_t *p = storage_.data(); p < start_; ++p)
-    if (*p != kGuardByte) return false;
-  for (const uint8_t *p = start_ + bytes_; p < storage_.data() + storage_.size(); ++p)
-    if (*p != kGuardByte) return false;
-  return true;
-}
 
 sphc_localizer_config sceneConfig() {
   sphc_localizer_config config;

@@ -5,28 +5,11 @@
 #include <vector>
 
 #include "spherecloud/spherecloud.h"
+#include "tests/support/guarded_memory.h"
 #include "tests/support/scene.h"
 #include "tests/support/scene_map.h"
 
 namespace sphc::test {
-
-// Memory of exactly the bytes asked for, with guard bytes on both sides.
-class GuardedMemory {
- public:
-  GuardedMemory() = default;
-  GuardedMemory(uint64_t bytes, size_t alignment);  // of sphc_memory
-
-  void *data() { return start_; }
-  size_t size() const { return bytes_; }
-  bool guardsIntact() const;
-  // The contents, for comparing.
-  std::vector<uint8_t> copy() const { return {start_, start_ + bytes_}; }
-
- private:
-  std::vector<uint8_t> storage_;
-  uint8_t *start_ = nullptr;
-  size_t bytes_ = 0;
-};
 
 // The room's cameras: colour 320 x 240, a smaller depth camera 4 cm beside it.
 sphc_localizer_config sceneConfig();

@@ -8,6 +8,7 @@
 
 #include "handle.h"
 #include "runtime/stages/align/depth_reader.h"
+#include "tests/support/arena_memory.h"
 
 namespace sphc::simulated::test {
 namespace {
@@ -34,8 +35,7 @@ class SimulatedAmplitude : public testing::Test {
     Arena state_bytes, scratch_bytes;
     DepthReader::layout(config, state_bytes, scratch_bytes, nullptr);
     std::vector<uint8_t> scratch(scratch_bytes.used() + kArenaAlignment);
-    const auto begin = reinterpret_cast<uintptr_t>(scratch.data());
-    Arena state, arena(scratch.data() + (kArenaAlignment - begin % kArenaAlignment) % kArenaAlignment);
+    Arena state, arena(sphc::test::alignedStart(&scratch));
     DepthReader reader;
     DepthReader::layout(config, state, arena, &reader);
     reader.init(config);

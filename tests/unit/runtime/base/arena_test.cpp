@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/arena_memory.h"
+
 namespace sphc {
 namespace {
 
@@ -38,8 +40,7 @@ TEST(Arena, BothWalksAgreeAndPiecesAreAlignedAndApart) {
   Arena measure;
   walk(measure);
   std::vector<uint8_t> storage(measure.used() + kArenaAlignment);
-  uint8_t *start = storage.data();
-  while (reinterpret_cast<uintptr_t>(start) % kArenaAlignment) ++start;
+  uint8_t *const start = test::alignedStart(&storage);
   Arena arena(start);
   const Layout layout = walk(arena);
   EXPECT_EQ(arena.used(), measure.used());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/support/arena_memory.h"
 #include "tests/support/scene.h"
 
 namespace sphc {
@@ -28,7 +29,7 @@ class DepthReaderTest : public testing::Test {
     DepthReader::layout(config_, measured_state, measured_scratch, nullptr);
     state_.assign(measured_state.used() + kArenaAlignment, 0xEE);
     scratch_.assign(measured_scratch.used() + kArenaAlignment, 0xEE);
-    Arena state(aligned(&state_)), scratch(aligned(&scratch_));
+    Arena state(test::alignedStart(&state_)), scratch(test::alignedStart(&scratch_));
     reader_ = {};
     DepthReader::layout(config_, state, scratch, &reader_);
     reader_.init(config_);
@@ -45,10 +46,6 @@ class DepthReaderTest : public testing::Test {
   ImageView<uint16_t> view_;
 
  private:
-  static void *aligned(std::vector<uint8_t> *bytes) {
-    const auto begin = reinterpret_cast<uintptr_t>(bytes->data());
-    return bytes->data() + (kArenaAlignment - begin % kArenaAlignment) % kArenaAlignment;
-  }
   std::vector<uint8_t> state_, scratch_;
   DepthReader reader_;
 };

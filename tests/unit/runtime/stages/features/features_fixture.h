@@ -9,6 +9,7 @@
 
 #include "runtime/base/random.h"
 #include "runtime/stages/features/extractor.h"
+#include "tests/support/guarded_memory.h"
 
 namespace sphc {
 
@@ -69,31 +70,6 @@ inline TestImage spots(int32_t width, int32_t height, uint64_t seed, double zoom
   });
 }
 
-// Memory aligned as arenas need it, filled with a pattern and guarded behind its end.
-class GuardedMemory {
- public:
-  explicit GuardedMemory(size_t bytes, uint8_t fill = 0xA5)
-      : bytes_(bytes), storage_(bytes + kGuard + kArenaAlignment, fill) {
-    std::memset(data() + bytes_, 0x5C, kGuard);
-  }
-  unsigned char *data() {
-    const auto address = reinterpret_cast<uintptr_t>(storage_.data());
-    return storage_.data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
-  }
-  bool intact() {
-    for (size_t i = 0; i < kGuard; ++i) {
-      if (data()[bytes_ + i] != 0x5C) return false;
-    }
-    return true;
-  }
-  size_t bytes() const { return bytes_; }
-
- private:
-  static constexpr size_t kGuard = 256;
-  size_t bytes_;
-  std::vector<unsigned char> storage_;
-};
-
 struct Features {
   std::vector<Keypoint> keypoints;
   std::vector<Descriptor> descriptors;
@@ -103,10 +79,12 @@ class TestExtractor {
  public:
   explicit TestExtractor(const FeatureConfig &config, uint8_t fill = 0xA5,
                          const FeatureKernels &kernels = simdFeatureKernels(), const Parallel &parallel = {})
-      : config_(config), state_(stateBytes(config), fill), scratch_(scratchBytes(config), fill) {
+      : config_(config),
+        state_(stateBytes(config), kArenaAlignment, fill),
+        scratch_(scratchBytes(config), kArenaAlignment, fill) {
     Arena state(state_.data()), scratch(scratch_.data());
     FeatureExtractor::layout(config, state, scratch, &extractor_);
-    used_as_measured_ = state.used() == state_.bytes() && scratch.used() == scratch_.bytes();
+    used_as_measured_ = state.used() == state_.size() && scratch.used() == scratch_.size();
     extractor_.init(kernels, parallel);
   }
 
@@ -124,10 +102,10 @@ class TestExtractor {
     return out;
   }
 
-  bool sound() { return used_as_measured_ && outputs_intact_ && state_.intact() && scratch_.intact(); }
+  bool sound() { return used_as_measured_ && outputs_intact_ && state_.guardsIntact() && scratch_.guardsIntact(); }
   bool wasCut() const { return extractor_.wasCut(); }
-  size_t stateBytes() const { return state_.bytes(); }
-  size_t scratchBytes() const { return scratch_.bytes(); }
+  size_t stateBytes() const { return state_.size(); }
+  size_t scratchBytes() const { return scratch_.size(); }
 
  private:
   static size_t stateBytes(const FeatureConfig &config) {
@@ -142,7 +120,7 @@ class TestExtractor {
   }
 
   FeatureConfig config_;
-  GuardedMemory state_, scratch_;
+  test::GuardedMemory state_, scratch_;
   FeatureExtractor extractor_;
   bool used_as_measured_ = false, outputs_intact_ = true;
 };

@@ -38,9 +38,7 @@ class MatcherTest : public testing::Test {
     Arena measure;
     Matcher::layout(kQueries, measure, nullptr);
     memory_.resize(measure.used() + kArenaAlignment);
-    uint8_t *start = memory_.data();
-    while (reinterpret_cast<uintptr_t>(start) % kArenaAlignment) ++start;
-    Arena arena(start);
+    Arena arena(test::alignedStart(&memory_));
     Matcher::layout(kQueries, arena, &matcher_);
     matches_.resize(kQueries);
   }
