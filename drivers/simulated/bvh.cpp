@@ -18,12 +18,11 @@ Vec3f reach(const Shape &shape) {
   return {along(m.row[0]), along(m.row[1]), along(m.row[2])};
 }
 
-bool crosses(const Vec3f &lo, const Vec3f &hi, const Vec3f &origin, const Vec3f &inverse, float t_min,
-             float t_max) {
+bool crosses(const Vec3f &lo, const Vec3f &hi, const Vec3f &origin, const Vec3f &inverse, float t_max) {
   const Vec3f a{(lo.x - origin.x) * inverse.x, (lo.y - origin.y) * inverse.y, (lo.z - origin.z) * inverse.z};
   const Vec3f b{(hi.x - origin.x) * inverse.x, (hi.y - origin.y) * inverse.y, (hi.z - origin.z) * inverse.z};
   const Vec3f enter = low(a, b), leave = high(a, b);
-  return std::max({enter.x, enter.y, enter.z, t_min}) <= std::min({leave.x, leave.y, leave.z, t_max});
+  return std::max({enter.x, enter.y, enter.z, 0.0f}) <= std::min({leave.x, leave.y, leave.z, t_max});
 }
 
 }  // namespace
@@ -63,7 +62,7 @@ void Bvh::split(uint32_t node, uint32_t first, uint32_t count) {
   split(children + 1, first + count / 2, count - count / 2);
 }
 
-bool Bvh::blocked(const Vec3f &origin, const Vec3f &direction, float t_min, float t_max) const {
+bool Bvh::blocked(const Vec3f &origin, const Vec3f &direction, float t_max) const {
   if (order_.empty()) return false;
   const auto invert = [](float d) { return 1.0f / (std::fabs(d) < 1e-9f ? 1e-9f : d); };
   const Vec3f inverse{invert(direction.x), invert(direction.y), invert(direction.z)};
@@ -72,7 +71,7 @@ bool Bvh::blocked(const Vec3f &origin, const Vec3f &direction, float t_min, floa
   stack[depth++] = 0;
   while (depth > 0) {
     const Node &node = nodes_[stack[--depth]];
-    if (!crosses(node.low, node.high, origin, inverse, t_min, t_max)) continue;
+    if (!crosses(node.low, node.high, origin, inverse, t_max)) continue;
     if (node.count == 0) {
       stack[depth++] = node.first;
       stack[depth++] = node.first + 1;
@@ -80,7 +79,7 @@ bool Bvh::blocked(const Vec3f &origin, const Vec3f &direction, float t_min, floa
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       const Shape &shape = shapes_[order_[i]];
-      if (intersect(shape.kind, localRay(shape, origin, direction), t_min, t_max) < kFar) return true;
+      if (intersect(shape.kind, localRay(shape, origin, direction), 0, t_max) < kFar) return true;
     }
   }
   return false;

@@ -11,8 +11,8 @@ class Bvh {
  public:
   // Borrows `shapes` for its lifetime; the one of kRoom is left out: nothing inside is hidden by it.
   explicit Bvh(const std::vector<Shape> &shapes);
-  // Whether anything lies on the ray origin + t direction, t in (t_min, t_max).
-  bool blocked(const Vec3f &origin, const Vec3f &direction, float t_min, float t_max) const;
+  // Whether anything lies on the ray origin + t direction, t in (0, t_max).
+  bool blocked(const Vec3f &origin, const Vec3f &direction, float t_max) const;
 
  private:
   struct Node {

@@ -78,12 +78,12 @@ void Canvas::disc(float x, float y, float radius, const Ink &ink, float alpha) {
   figure(x - radius, y - radius, x + radius, y + radius, distance, ink, alpha);
 }
 
-void Canvas::ring(float x, float y, float radius, float thickness, const Ink &ink, float alpha) {
+void Canvas::ring(float x, float y, float radius, float thickness, const Ink &ink) {
   const float reach = radius + thickness;
   const auto distance = [&](float px, float py) {
     return std::fabs(std::sqrt((px - x) * (px - x) + (py - y) * (py - y)) - radius) - 0.5f * thickness;
   };
-  figure(x - reach, y - reach, x + reach, y + reach, distance, ink, alpha);
+  figure(x - reach, y - reach, x + reach, y + reach, distance, ink, 1);
 }
 
 void Canvas::line(float x0, float y0, float x1, float y1, float thickness, const Ink &ink, float alpha) {

@@ -64,7 +64,7 @@ class Canvas {
 
   void rectangle(float x0, float y0, float x1, float y1, const Ink &ink, float alpha = 1);
   void disc(float x, float y, float radius, const Ink &ink, float alpha = 1);
-  void ring(float x, float y, float radius, float thickness, const Ink &ink, float alpha = 1);
+  void ring(float x, float y, float radius, float thickness, const Ink &ink);
   void line(float x0, float y0, float x1, float y1, float thickness, const Ink &ink, float alpha = 1);
   void triangle(const float xy[6], const Ink &ink, float alpha = 1);
   // A soft spot, darker or lighter than what is there by the factor.

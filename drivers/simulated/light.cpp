@@ -27,7 +27,7 @@ float openness(const Bvh &bvh, const Vec3f &point, const Vec3f &normal) {
   constexpr float kReach = 0.5f;
   int open = 0;
   for (int i = 0; i < kOpenRays; ++i) {
-    if (!bvh.blocked(point, openDirection(normal, i), 0, kReach)) ++open;
+    if (!bvh.blocked(point, openDirection(normal, i), kReach)) ++open;
   }
   return static_cast<float>(open) / kOpenRays;
 }
@@ -41,7 +41,7 @@ float lampLight(const Bvh &bvh, const Vec3f &point, const Vec3f &normal, const V
     const Vec3f way = lamp + corner * kSpread - point;
     const float r2 = dot(way, way);
     const float cosine = dot(way, normal) / std::sqrt(r2);
-    if (cosine <= 0 || bvh.blocked(point, way, 0, 0.9f)) continue;
+    if (cosine <= 0 || bvh.blocked(point, way, 0.9f)) continue;
     sum += cosine / (0.9f + 0.45f * r2);
   }
   return 0.25f * sum;
@@ -56,7 +56,7 @@ float windowLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, cons
     const Vec3f way = spot - point;
     const float r2 = dot(way, way), r = std::sqrt(r2);
     const float out = -dot(way, plan.window_normal) / r, in = dot(way, normal) / r;
-    if (out <= 0 || in <= 0 || bvh.blocked(point, way, 0, 1)) continue;
+    if (out <= 0 || in <= 0 || bvh.blocked(point, way, 1)) continue;
     sum += out * in / (0.4f + r2);
   }
   return sum / 6;
@@ -72,7 +72,7 @@ float sunLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, const V
   if (cosine <= 0 || way <= 0) return 0;
   const Vec3f through = point + to_sun * way - plan.window;
   if (std::fabs(dot(through, side)) > plan.window_half_m || std::fabs(through.z) > kHalfHeight) return 0;
-  return bvh.blocked(point, to_sun, 0, way) ? 0 : cosine;
+  return bvh.blocked(point, to_sun, way) ? 0 : cosine;
 }
 
 // Square root of the light at a point of a face: texels are square roots too.

@@ -54,8 +54,8 @@ struct TinyImages {
       for (uint32_t x = 0; x < kDepthWidth; ++x) depth[y * kDepthWidth + x] = tinyDepth(i, x, y);
   }
 
-  sphc_image colorImage(sphc_format format = SPHC_FORMAT_BGR8) const {
-    return {color.data(), kColorWidth, kColorHeight, kColorWidth * 3, format};
+  sphc_image colorImage() const {
+    return {color.data(), kColorWidth, kColorHeight, kColorWidth * 3, SPHC_FORMAT_BGR8};
   }
   sphc_image depthImage() const {
     return {depth.data(), kDepthWidth, kDepthHeight, kDepthWidth * 2, SPHC_FORMAT_DEPTH16};

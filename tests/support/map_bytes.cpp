@@ -95,8 +95,8 @@ uint64_t get64(const std::vector<uint8_t> &file, size_t at) {
   return get32(file, at) | (uint64_t{get32(file, at + 4)} << 32);
 }
 
-uint32_t slowCrc32(const uint8_t *data, size_t bytes, uint32_t crc) {
-  crc = ~crc;
+uint32_t slowCrc32(const uint8_t *data, size_t bytes) {
+  uint32_t crc = UINT32_MAX;
   for (size_t i = 0; i < bytes; ++i) {
     crc ^= data[i];
     for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xEDB88320u & (0 - (crc & 1)));

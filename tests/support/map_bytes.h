@@ -46,6 +46,6 @@ uint32_t get32(const std::vector<uint8_t> &file, size_t at);
 uint64_t get64(const std::vector<uint8_t> &file, size_t at);
 
 // A plain bit-by-bit CRC-32.
-uint32_t slowCrc32(const uint8_t *data, size_t bytes, uint32_t crc = 0);
+uint32_t slowCrc32(const uint8_t *data, size_t bytes);
 
 }  // namespace sphc::test

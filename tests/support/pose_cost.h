@@ -41,20 +41,22 @@ struct PoseCost {
 };
 
 template <typename Cost>
-Vector8 gradientOf(const Cost &cost, double step = 1e-6) {
+Vector8 gradientOf(const Cost &cost) {
+  constexpr double kStep = 1e-6;
   Vector8 out;
   for (int i = 0; i < 8; ++i)
-    out[i] = (cost(step * Vector8::Unit(i)) - cost(-step * Vector8::Unit(i))) / (2 * step);
+    out[i] = (cost(kStep * Vector8::Unit(i)) - cost(-kStep * Vector8::Unit(i))) / (2 * kStep);
   return out;
 }
 
 template <typename Cost>
-Matrix8 curvatureOf(const Cost &cost, double step = 1e-5) {
+Matrix8 curvatureOf(const Cost &cost) {
+  constexpr double kStep = 1e-5;
   Matrix8 out;
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j) {
-      const Vector8 a = step * Vector8::Unit(i), b = step * Vector8::Unit(j);
-      out(i, j) = (cost(a + b) - cost(a - b) - cost(b - a) + cost(-a - b)) / (4 * step * step);
+      const Vector8 a = kStep * Vector8::Unit(i), b = kStep * Vector8::Unit(j);
+      out(i, j) = (cost(a + b) - cost(a - b) - cost(b - a) + cost(-a - b)) / (4 * kStep * kStep);
     }
   return out;
 }

@@ -1,7 +1,5 @@
 #include "lab/baselines/quaternion_forms.h"
 
-#include <cmath>
-
 namespace sphc::host {
 namespace {
 
@@ -43,16 +41,6 @@ Form withoutSquaredLength(const Form &a, int degree) {
     if (m.z >= 2) quotient[i] -= quotient[Monomial{m.x, m.y, m.z - 2}.place()];
   }
   return quotient;
-}
-
-Eigen::VectorXd monomialValues(const Eigen::Vector4d &q, int degree) {
-  Eigen::VectorXd values(monomialCount(degree));
-  for (int i = 0; i < values.size(); ++i) {
-    const Monomial &m = table()[static_cast<size_t>(i)];
-    values[i] =
-        std::pow(q[0], degree - m.x - m.y - m.z) * std::pow(q[1], m.x) * std::pow(q[2], m.y) * std::pow(q[3], m.z);
-  }
-  return values;
 }
 
 }  // namespace sphc::host

@@ -26,7 +26,4 @@ Form product(const Form &a, int degree_a, const Form &b, int degree_b);
 // a / (w^2 + x^2 + y^2 + z^2), for a form of this degree that it divides.
 Form withoutSquaredLength(const Form &a, int degree);
 
-// Values of all monomials.
-Eigen::VectorXd monomialValues(const Eigen::Vector4d &q_wxyz, int degree);
-
 }  // namespace sphc::host

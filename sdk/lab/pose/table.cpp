@@ -12,9 +12,9 @@ std::string number(double value, int digits) { return std::isnan(value) ? "-" : 
 
 std::string csvNumber(double value, int digits) { return std::isnan(value) ? "" : fixed(value, digits); }
 
-std::string csvTail(const Tail &tail, int digits) {
+std::string csvTail(const Tail &tail) {
   std::string text;
-  for (const double value : {tail.median, tail.p90, tail.p99, tail.max}) text += "," + csvNumber(value, digits);
+  for (const double value : {tail.median, tail.p90, tail.p99, tail.max}) text += "," + csvNumber(value, 4);
   return text;
 }
 
@@ -94,9 +94,9 @@ std::string benchCsv(const std::vector<BenchTable> &tables) {
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
       text += caseText(table) + "," + csvText(s.name) + "," + std::to_string(s.runs) + "," +
-              fixed(s.found_percent, 2) + csvTail(s.time_ms, 4) + "," + csvNumber(s.times_faster_than_poselib, 2) +
-              csvTail(s.rotation_deg, 4) + csvTail(s.translation_cm, 4) + "," + fixed(s.beyond_3cm_percent, 3) +
-              "," + fixed(s.beyond_3deg_percent, 3) + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
+              fixed(s.found_percent, 2) + csvTail(s.time_ms) + "," + csvNumber(s.times_faster_than_poselib, 2) +
+              csvTail(s.rotation_deg) + csvTail(s.translation_cm) + "," + fixed(s.beyond_3cm_percent, 3) + "," +
+              fixed(s.beyond_3deg_percent, 3) + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
               fixed(s.iterations, 0) + "," + fixed(s.hypotheses, 0) + "\n";
     }
   }

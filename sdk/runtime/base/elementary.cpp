@@ -57,26 +57,6 @@ double atan2Of(double y, double x) {
   return y < 0 ? -angle : angle;
 }
 
-// Odd polynomial on [0, 1]; coefficients by reweighted least squares (Lawson), largest error 7e-9 before rounding.
-float atan2Fast(float y, float x) {
-  const float ax = absOf(x), ay = absOf(y);
-  const float big = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
-  if (big == 0.0f) return 0.0f;
-  const float t = small / big, s = t * t;
-  float angle = 0.00262224278f;
-  angle = angle * s - 0.0151325287f;
-  angle = angle * s + 0.0411218479f;
-  angle = angle * s - 0.0736670494f;
-  angle = angle * s + 0.105739318f;
-  angle = angle * s - 0.141859755f;
-  angle = angle * s + 0.199903965f;
-  angle = angle * s - 0.333329856f;
-  angle = angle * s * t + t;
-  if (ay > ax) angle = static_cast<float>(kPi / 2) - angle;
-  if (x < 0.0f) angle = static_cast<float>(kPi) - angle;
-  return y < 0.0f ? -angle : angle;
-}
-
 double expOf(double x) {
   // e^x = 2^n e^r, |r| <= ln2 / 2
   constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;

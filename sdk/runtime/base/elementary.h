@@ -39,8 +39,6 @@ inline int32_t floorToInt(float x) {
 void sinCos(double x, double *sine, double *cosine);
 // Angle of (x, y) in (-pi, pi], to 1e-15; 0 at the origin.
 double atan2Of(double y, double x);
-// Angle of (x, y) in (-pi, pi], to 2e-6: for keypoint orientations.
-float atan2Fast(float y, float x);
 // e^x to 1e-14 relative, for |x| < 700.
 double expOf(double x);
 // Natural logarithm of x > 0, to 1e-14.

@@ -22,7 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Reals = hn::CappedTag<float, 8>;
 using Real = hn::Vec<Reals>;
 
-// atan on [0, 1], in eighths of a circle, to 1e-6 of them; the polynomial of atan2Fast times 4 / pi.
+// atan on [0, 1], in eighths of a circle, to 1e-6 of them: an odd polynomial, whose coefficients are by reweighted
+// least squares (Lawson).
 HWY_INLINE Real eighthsOf(Real t) {
   const Reals d;
   const auto s = hn::Mul(t, t);

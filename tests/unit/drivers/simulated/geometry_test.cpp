@@ -111,7 +111,7 @@ TEST(SimulatedBvh, AgreesWithEveryShapeAsked) {
     const Vec3f way{rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-3, 3)};
     bool any = false;
     for (const Shape &shape : shapes) any |= intersect(shape.kind, localRay(shape, origin, way), 0, 1) < kFar;
-    EXPECT_EQ(bvh.blocked(origin, way, 0, 1), any);
+    EXPECT_EQ(bvh.blocked(origin, way, 1), any);
     blocked += any ? 1 : 0;
   }
   EXPECT_GT(blocked, 100);

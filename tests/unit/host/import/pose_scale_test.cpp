@@ -51,8 +51,9 @@ PoseScaleCheck checkOf(const TellingOfFrame &tell, double step_m, uint32_t frame
 }
 
 // What it says of poses that are all told so.
-PoseScale scaleTold(const Telling &tell, double step_m = 0.05, uint32_t frames = 30) {
-  return checkOf([&tell](uint32_t, const Rigid &truth) { return tell(truth); }, step_m, frames).result();
+PoseScale scaleTold(const Telling &tell, double step_m = 0.05) {
+  constexpr uint32_t kFrames = 30;
+  return checkOf([&tell](uint32_t, const Rigid &truth) { return tell(truth); }, step_m, kFrames).result();
 }
 
 // The same where poses are told so from the middle on.

@@ -21,8 +21,8 @@ uint32_t nameOf(const Descriptor &d) {
 }
 
 // Points whose descriptor says which they are.
-PointModel namedModel(uint32_t count, uint64_t seed = 1) {
-  Random random(seed);
+PointModel namedModel(uint32_t count) {
+  Random random(1);
   PointModel model;
   for (uint32_t i = 0; i < count; ++i) {
     const Vector3 position = Vector3(2, 1, 0.5).cwiseProduct(test::normalVector(&random)) + Vector3(10, -4, 2);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {
@@ -15,7 +17,15 @@ Form randomForm(Random *random, int degree) {
 
 const Eigen::Vector4d kPoint(0.7, -1.1, 0.4, 0.9);
 
-double valueOf(const Form &form, int degree) { return form.dot(monomialValues(kPoint, degree)); }
+// At kPoint.
+double valueOf(const Form &form, int degree) {
+  double value = 0;
+  int place = 0;
+  for (const Monomial &m : monomials(degree))
+    value += form[place++] * std::pow(kPoint[0], degree - m.x - m.y - m.z) * std::pow(kPoint[1], m.x) *
+             std::pow(kPoint[2], m.y) * std::pow(kPoint[3], m.z);
+  return value;
+}
 
 TEST(QuaternionForms, EachMonomialIsInItsPlace) {
   const std::vector<Monomial> list = monomials(7);

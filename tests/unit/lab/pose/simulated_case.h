@@ -5,9 +5,9 @@
 
 namespace sphc::host::test {
 
-// Points in view of an ordinary camera; every `1 / eta`-th row is true.
-inline PoseCase simulatedCase(size_t rows, size_t one_true_in, uint64_t seed = 1) {
-  Random random(seed);
+// Points in view of an ordinary camera; one row in `one_true_in` is true.
+inline PoseCase simulatedCase(size_t rows, size_t one_true_in) {
+  Random random(1);
   const auto uniform = [&random](double low, double high) { return low + (high - low) * random.uniform(); };
   PoseCase c;
   c.name = "simulated";
