@@ -110,7 +110,7 @@ void BufferRing::unmake() {
 int BufferRing::queue(uint32_t index) {
   v4l2_buffer buffer = captureBuffer(index);
   const int error = node_.ioctl(VIDIOC_QBUF, &buffer);
-  if (error == 0) buffers_[index].owner = Owner::Kernel;
+  if (error == 0) buffers_[index].owner = Owner::kKernel;
   return error;
 }
 
@@ -130,8 +130,8 @@ sphc_status BufferRing::streamOn(sphc_message *message) {
 
 void BufferRing::streamOff() {
   for (uint32_t i = 0; i < count_; ++i) {
-    if (buffers_[i].owner == Owner::Caller) syncDmabuf(buffers_[i], DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ);
-    buffers_[i].owner = Owner::Nobody;
+    if (buffers_[i].owner == Owner::kCaller) syncDmabuf(buffers_[i], DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ);
+    buffers_[i].owner = Owner::kNobody;
   }
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   node_.ioctl(VIDIOC_STREAMOFF, &type);
@@ -140,9 +140,9 @@ void BufferRing::streamOff() {
 int BufferRing::dequeue(FilledBuffer *filled) {
   v4l2_buffer reply = captureBuffer(0);
   if (const int error = node_.ioctl(VIDIOC_DQBUF, &reply)) return error;
-  if (reply.index >= count_ || buffers_[reply.index].owner != Owner::Kernel) return EPROTO;
+  if (reply.index >= count_ || buffers_[reply.index].owner != Owner::kKernel) return EPROTO;
   Buffer &buffer = buffers_[reply.index];
-  buffer.owner = Owner::Caller;
+  buffer.owner = Owner::kCaller;
   syncDmabuf(buffer, DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ);
   *filled = {reply.index, reply.bytesused, reply.flags, reply.sequence, nanoseconds(reply.timestamp)};
   return 0;
@@ -150,19 +150,19 @@ int BufferRing::dequeue(FilledBuffer *filled) {
 
 void BufferRing::giveBack(uint32_t index) {
   syncDmabuf(buffers_[index], DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ);
-  buffers_[index].owner = Owner::Nobody;
+  buffers_[index].owner = Owner::kNobody;
   queue(index);
 }
 
 void BufferRing::queueIdle() {
   for (uint32_t i = 0; i < count_; ++i)
-    if (buffers_[i].owner == Owner::Nobody) queue(i);
+    if (buffers_[i].owner == Owner::kNobody) queue(i);
 }
 
 bool BufferRing::deviceHasRoom() const {
   for (uint32_t i = 0; i < count_; ++i) {
     v4l2_buffer reply;
-    if (buffers_[i].owner != Owner::Kernel) continue;
+    if (buffers_[i].owner != Owner::kKernel) continue;
     if (query(i, &reply) != 0) return true;  // nothing is known then
     if ((reply.flags & V4L2_BUF_FLAG_QUEUED) && !(reply.flags & V4L2_BUF_FLAG_DONE)) return true;
   }

@@ -46,7 +46,7 @@ class BufferRing {
   int dmabuf(uint32_t index) const { return buffers_[index].dmabuf; }  // -1: not exported
 
  private:
-  enum class Owner { Nobody, Kernel, Caller };
+  enum class Owner { kNobody, kKernel, kCaller };
   struct Buffer {
     const uint8_t *data;  // null: not mapped
     size_t bytes;

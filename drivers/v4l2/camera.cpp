@@ -273,8 +273,8 @@ bool Camera::countFrame(const FilledBuffer &filled, sphc_capture *capture) {
   const FrameCounter::Step step = counter_.step(filled.sequence, filled.time_ns);
   capture->sequence = step.sequence;
   stats_.lost += step.lost;
-  stats_.uncounted += step.kind == FrameCounter::Kind::Uncounted;
-  if (step.kind != FrameCounter::Kind::Duplicate) return true;
+  stats_.uncounted += step.kind == FrameCounter::Kind::kUncounted;
+  if (step.kind != FrameCounter::Kind::kDuplicate) return true;
   ++stats_.duplicated;
   explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: came before, with the same time; take the next", filled.sequence);
   return false;

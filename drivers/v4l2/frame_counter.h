@@ -10,7 +10,7 @@ class FrameCounter {
  public:
   void restart() { *this = {}; }
 
-  enum class Kind { Next, Duplicate, Uncounted };
+  enum class Kind { kNext, kDuplicate, kUncounted };
   struct Step {
     Kind kind;
     uint32_t sequence;  // ours: from 0, lost frames counted

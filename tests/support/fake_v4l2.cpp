@@ -108,15 +108,15 @@ int FakeCamera::queryBuffer(v4l2_buffer *buffer) const {
   if (buffer->index >= buffers_.size()) return EINVAL;
   const Buffer &own = buffers_[buffer->index];
   *buffer = own.told;
-  buffer->flags = own.state == State::Queued ? V4L2_BUF_FLAG_QUEUED
-                  : own.state == State::Done ? V4L2_BUF_FLAG_DONE
-                                             : 0;
+  buffer->flags = own.state == State::kQueued ? V4L2_BUF_FLAG_QUEUED
+                  : own.state == State::kDone ? V4L2_BUF_FLAG_DONE
+                                              : 0;
   return 0;
 }
 
 int FakeCamera::queueBuffer(const v4l2_buffer &buffer) {
-  if (buffer.index >= buffers_.size() || buffers_[buffer.index].state != State::Free) return EINVAL;
-  buffers_[buffer.index].state = State::Queued;
+  if (buffer.index >= buffers_.size() || buffers_[buffer.index].state != State::kFree) return EINVAL;
+  buffers_[buffer.index].state = State::kQueued;
   queued_.push(buffer.index);
   return 0;
 }
@@ -126,7 +126,7 @@ int FakeCamera::dequeueBuffer(v4l2_buffer *buffer) {
   if (is_given_up) return EIO;
   if (done_.count == 0) return EAGAIN;
   Buffer &own = buffers_[done_.pop()];
-  own.state = State::Free;
+  own.state = State::kFree;
   *buffer = own.told;
   bend_dequeued(*buffer);
   return 0;
@@ -143,7 +143,7 @@ int FakeCamera::streamOn(int64_t now_ns) {
 int FakeCamera::streamOff() {
   is_streaming_ = is_given_up = false;
   queued_.count = done_.count = 0;
-  for (Buffer &buffer : buffers_) buffer.state = State::Free;
+  for (Buffer &buffer : buffers_) buffer.state = State::kFree;
   return 0;
 }
 
@@ -168,7 +168,7 @@ void FakeCamera::expose() {
   bend_frame(frame);
   if (frame.is_lost) return;
   queued_.pop();
-  buffer.state = State::Done;
+  buffer.state = State::kDone;
   buffer.told.bytesused = frame.bytes_used;
   buffer.told.sequence = frame.sequence;
   buffer.told.flags = frame.flags;

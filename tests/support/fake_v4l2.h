@@ -73,7 +73,7 @@ class FakeCamera {
 
  private:
   friend class FakeKernel;
-  enum class State { Free, Queued, Done };
+  enum class State { kFree, kQueued, kDone };
   struct Buffer {
     std::shared_ptr<uint8_t[]> data;  // shared, so that a camera not yet in use can be copied
     State state;

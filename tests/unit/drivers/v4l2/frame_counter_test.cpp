@@ -11,7 +11,7 @@ TEST(FrameCounter, CountsOnWhereTheDeviceDoes) {
   FrameCounter counter;
   for (uint32_t i = 0; i < 5; ++i) {
     const FrameCounter::Step step = counter.step(7 + i, i);
-    EXPECT_EQ(step.kind, Kind::Next);
+    EXPECT_EQ(step.kind, Kind::kNext);
     EXPECT_EQ(step.sequence, i) << "ours begins at 0";
     EXPECT_EQ(step.lost, 0u);
   }
@@ -30,7 +30,7 @@ TEST(FrameCounter, GoesThroughTheWrap) {
   FrameCounter counter;
   counter.step(UINT32_MAX, 0);
   const FrameCounter::Step step = counter.step(1, 1);
-  EXPECT_EQ(step.kind, Kind::Next);
+  EXPECT_EQ(step.kind, Kind::kNext);
   EXPECT_EQ(step.lost, 1u);
   EXPECT_EQ(step.sequence, 2u);
 }
@@ -39,7 +39,7 @@ TEST(FrameCounter, ADeviceThatTellsNeitherNumberNorTimeIsCounted) {
   FrameCounter counter;
   for (uint32_t i = 0; i < 4; ++i) {
     const FrameCounter::Step step = counter.step(0, 0);
-    EXPECT_NE(step.kind, Kind::Duplicate);
+    EXPECT_NE(step.kind, Kind::kDuplicate);
     EXPECT_EQ(step.sequence, i);
   }
 }
@@ -47,8 +47,8 @@ TEST(FrameCounter, ADeviceThatTellsNeitherNumberNorTimeIsCounted) {
 TEST(FrameCounter, KnowsADuplicateByNumberAndTime) {
   FrameCounter counter;
   counter.step(3, 100);
-  EXPECT_EQ(counter.step(3, 100).kind, Kind::Duplicate);
-  EXPECT_EQ(counter.step(3, 200).kind, Kind::Uncounted) << "a device that does not count";
+  EXPECT_EQ(counter.step(3, 100).kind, Kind::kDuplicate);
+  EXPECT_EQ(counter.step(3, 200).kind, Kind::kUncounted) << "a device that does not count";
   EXPECT_EQ(counter.step(4, 300).sequence, 2u);
 }
 
@@ -57,7 +57,7 @@ TEST(FrameCounter, TakesAnotherCountForTheNextFrame) {
   counter.step(500, 0);
   for (const uint32_t jump : {2u, 4000000000u, 499u}) {
     const FrameCounter::Step step = counter.step(jump, jump);
-    EXPECT_EQ(step.kind, Kind::Uncounted) << jump;
+    EXPECT_EQ(step.kind, Kind::kUncounted) << jump;
     EXPECT_EQ(step.lost, 0u);
   }
   EXPECT_EQ(counter.step(500, 9).sequence, 4u);
@@ -68,7 +68,7 @@ TEST(FrameCounter, AGapOfMoreThanSomeMinutesIsAnotherCount) {
   counter.step(0, 0);
   EXPECT_EQ(counter.step(10000, 1).lost, 9999u);
   const FrameCounter::Step step = counter.step(20001, 2);
-  EXPECT_EQ(step.kind, Kind::Uncounted);
+  EXPECT_EQ(step.kind, Kind::kUncounted);
   EXPECT_EQ(step.lost, 0u);
 }
 
