@@ -258,7 +258,7 @@ const char kCamerasHelp[] =
     "  glasses   colour 480 x 360 of 59 degrees, depth of 64 x 48 zones";
 
 // Bounds are the driver's; of the rate they are those at which colour and depth, 4 ms apart, take turns.
-void addOptions(CLI::App *app, SimulateOptions *options) {
+void addWalkOptions(CLI::App *app, SimulateOptions *options) {
   sphc_simulated_config &config = options->config;
   app->add_option("-o,--out", options->out, "Folder to make, or file X.mcap; must not be a recording yet")
       ->required()
@@ -283,6 +283,10 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
           ->check(between(0, 0.05))
           ->type_name("S");
   addRowTimeOption(app, &config.color_row_time_ns, "0: all rows at once");
+}
+
+void addWorldOptions(CLI::App *app, SimulateOptions *options) {
+  sphc_simulated_config &config = options->config;
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
       ->transform(wholeFrom(0))
@@ -299,6 +303,10 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->capture_default_str()
       ->transform(wholeFrom(0))
       ->type_name("N");
+}
+
+void addRunOptions(CLI::App *app, SimulateOptions *options) {
+  sphc_simulated_config &config = options->config;
   app->add_option("--from", config.walk_start_s, "Seconds on the walk at which frame 0 is; 16 is lap two")
       ->capture_default_str()
       ->check(between(0, 1e6))
@@ -316,6 +324,9 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
                   "the\nlast [none]")
       ->check(between(0.1, 2000))
       ->type_name("HZ");
+}
+
+void addImageFlags(CLI::App *app, SimulateOptions *options) {
   auto *ideal =
       app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");
   app->add_flag("--raw-depth", options->raw_depth,
@@ -336,7 +347,10 @@ Command simulateCommand(CLI::App *root) {
   CLI::App *app = root->add_subcommand("simulate");
   app->description("Record a walk of the simulated headset.\n\n" + std::string(kSimulateHelp));
   app->footer(kSimulateExample);
-  addOptions(app, options.get());
+  addWalkOptions(app, options.get());
+  addWorldOptions(app, options.get());
+  addRunOptions(app, options.get());
+  addImageFlags(app, options.get());
   return {app, [options](const Console &console) { return simulate(*options, console); }};
 }
 

@@ -44,16 +44,8 @@ class SimulatedTruth : public testing::Test {
     return values[values.size() / 2];
   }
 
-  static Handle *handle_;
-  static sphc_rig rig_;
-};
-Handle *SimulatedTruth::handle_ = nullptr;
-sphc_rig SimulatedTruth::rig_;
-
-// One room, hence one test: every test case runs in a process of its own.
-TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
-  {
-    SCOPED_TRACE("the walk is smooth, slow and closed");
+  // The walk is smooth, slow and closed.
+  static void checkWalk() {
     constexpr double kStep_s = 0.01;
     const int64_t start_ns = timeOf(0);
     Pose last = poseAt(start_ns);
@@ -71,8 +63,8 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     EXPECT_LT(norm(last.center - poseAt(start_ns).center), 1e-6);
   }
 
-  {
-    SCOPED_TRACE("what is felt along a closed lap is gravity, and from moment to moment the change of velocity");
+  // What is felt along a closed lap is gravity, and from moment to moment the change of velocity.
+  static void checkFeltAccelerations() {
     constexpr int kCount = 3200;
     constexpr int64_t kPeriodNs = 5000000;  // 16 s in all
     Vec3d sum{};
@@ -100,8 +92,8 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     EXPECT_EQ(sphc_simulated_felt_at(handle_->get(), 0, nullptr), SPHC_E_ARGUMENT);
   }
 
-  {
-    SCOPED_TRACE("a point seen in lap one is where lap two sees it");
+  // A point seen in lap one is where lap two sees it.
+  static void checkBothLaps() {
     const int64_t a_ns = timeOf(20), b_ns = timeOf(120);
     const Pose a = poseAt(a_ns), b = poseAt(b_ns);
     EXPECT_GT(norm(a.center - b.center), 0.02) << "another viewpoint";
@@ -129,8 +121,8 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     EXPECT_LT(median(errors), 0.01) << "half a pixel on a slanted wall";
   }
 
-  {
-    SCOPED_TRACE("measured depth is the truth plus bias and noise");
+  // Measured depth is the truth plus bias and noise.
+  static void checkMeasuredDepth() {
     std::vector<uint16_t> depth(kDepthPixels);
     std::vector<float> truth(kDepthPixels);
     int64_t depth_ns = 0;
@@ -153,8 +145,8 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     EXPECT_GT(*std::max_element(sizes.begin(), sizes.end()), 0.1) << "flying pixels";
   }
 
-  {
-    SCOPED_TRACE("both cameras see one room");
+  // Both cameras see one room.
+  static void checkBothCameras() {
     const int64_t time_ns = timeOf(60);
     const std::vector<float> z_color = oracle(time_ns);
     std::vector<float> z_depth(kDepthPixels);
@@ -177,6 +169,20 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     EXPECT_GT(errors.size(), 500u);
     EXPECT_LT(median(errors), 0.006);
   }
+
+  static Handle *handle_;
+  static sphc_rig rig_;
+};
+Handle *SimulatedTruth::handle_ = nullptr;
+sphc_rig SimulatedTruth::rig_;
+
+// One room, hence one test: every test case runs in a process of its own.
+TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
+  checkWalk();
+  checkFeltAccelerations();
+  checkBothLaps();
+  checkMeasuredDepth();
+  checkBothCameras();
 }
 
 }  // namespace
