@@ -171,7 +171,7 @@ Seen watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChe
   rig->watch([checks](const sphc_capture &c) { checks->look(c); });
   while (checks->pairs() < options.frames && !interrupt.came() && !is_over()) {
     CapturePair pair;
-    const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
+    const Rig::Got got = rig->next(kPairWait, &pair);
     if (got == Rig::Got::kEnd) break;
     if (got == Rig::Got::kNothing) continue;
     checks->look(pair);

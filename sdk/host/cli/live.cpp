@@ -185,7 +185,7 @@ int run(const LiveOptions &options, const Console &console) {
   const auto begin = std::chrono::steady_clock::now();
   while (!interrupt.came() && !isOver(options, tally, begin)) {
     CapturePair pair;
-    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
+    const Rig::Got got = rig.next(kPairWait, &pair);
     if (got == Rig::Got::kEnd) break;
     if (const std::string told = silence.hear(got, rig); !told.empty()) warn(told);
     if (got == Rig::Got::kNothing) {

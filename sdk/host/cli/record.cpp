@@ -152,7 +152,7 @@ void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *ri
   };
   while (!interrupt.came() && !is_over()) {
     CapturePair pair;
-    const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
+    const Rig::Got got = rig->next(kPairWait, &pair);
     if (got == Rig::Got::kEnd) break;
     if (got == Rig::Got::kPair) {
       if (guide) guide->see(pair);

@@ -15,6 +15,7 @@ constexpr double kMarginOfDisagreement = 8;  // or so many times what views disa
 constexpr double kMostDisagreement = 0.04;
 constexpr double kComparable = 0.25;  // farther off it is another surface; a share of depth
 constexpr size_t kSampled = 5000;     // points that tell how much views disagree
+constexpr size_t kBins = 250;         // of the histogram of that
 // Static points at depth edges are contradicted at times, so one contradiction counts against two confirmations.
 constexpr uint32_t kConfirmationsPerContradiction = 2;
 constexpr uint32_t kAgainAndAgain = 3;    // views of a later recording, so that one that is off is not enough
@@ -32,7 +33,7 @@ bool didSee(const Vector3 &camera_m, const TrackedPoint &tracked) {
 
 // Of points with the views that did not make them.
 double medianDisagreement(const std::vector<DepthViews> &recordings, const std::vector<TrackedPoint> &points) {
-  std::array<uint64_t, 250> histogram = {};
+  std::array<uint64_t, kBins> histogram = {};
   uint64_t total = 0;
   const auto compare = [&](const DepthViews &views, size_t k, const TrackedPoint &point) {
     Sight sight;

@@ -14,8 +14,12 @@ namespace {
 
 constexpr int kCellPx = 16;
 constexpr double kScaleRatio = 1.8;  // keypoints of one point differ in metric size at most by this factor
-constexpr double kAgreement2 = 16;   // squared Mahalanobis distance of an observation that supports the mean
-constexpr double kLoneNoise = 2;     // a point seen once may scatter at most so many times the sensor's noise
+// An observation may be off in depth by so many sigmas, or by such a share of its depth: poses are not exact
+// either.
+constexpr double kDepthSigmas = 4, kDepthShare = 0.03;
+constexpr size_t kNewestCompared = 6;  // of a track that are compared: the newest look most like the next
+constexpr double kAgreement2 = 16;     // squared Mahalanobis distance of an observation that supports the mean
+constexpr double kLoneNoise = 2;       // a point seen once may scatter at most so many times the sensor's noise
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
@@ -78,13 +82,13 @@ std::vector<std::vector<PointTracks::Candidate>> PointTracks::project(const Came
 double PointTracks::compare(const Observation &observation, const Candidate &candidate) const {
   const double reach = options_.merge_pixels;
   if ((candidate.pixel_px - observation.pixel_px).squaredNorm() > reach * reach) return kInfinite;
-  const double depth_reach = std::max(4 * observation.sigma_m, 0.03 * observation.depth_m);
+  const double depth_reach = std::max(kDepthSigmas * observation.sigma_m, kDepthShare * observation.depth_m);
   if (std::abs(candidate.depth_m - observation.depth_m) > depth_reach) return kInfinite;
   const Track &track = tracks_[candidate.track];
   const double ratio = observation.metric_scale_m / track.metric_scale_m;
   if (ratio > kScaleRatio || ratio < 1 / kScaleRatio) return kInfinite;
   double nearest = kInfinite;
-  const size_t looked_at = std::min<size_t>(track.observations.size(), 6);  // the newest look most like the next
+  const size_t looked_at = std::min(track.observations.size(), kNewestCompared);
   for (size_t k = 0; k < looked_at; ++k)
     nearest = std::min(nearest, descriptorDistance(track.observations[track.observations.size() - 1 - k].descriptor,
                                                    observation.descriptor));

@@ -9,8 +9,9 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kLogStep = 0.06;          // of the multiple
-constexpr double kAgreePx = 3;             // at a focal length of 500 pixels
+constexpr double kLogStep = 0.06;  // of the multiple
+constexpr double kAgreePx = 3, kAtFocalPx = 500;
+constexpr double kNearestM = 0.05;         // a point closer to the camera says nothing
 constexpr double kFixedPx = 1.5;           // a menu is found anew where it was
 constexpr double kRatio = 0.8;             // of a match's distance and the second best
 constexpr size_t kAsked = 250;             // keypoints of a frame
@@ -151,8 +152,8 @@ PoseScaleCheck::Votes PoseScaleCheck::compare(const Rigid &world_from_camera,
 
 bool PoseScaleCheck::agrees(const Vector3 &point_m, const Observation &match) const {
   Vector2 pixel_px;
-  if (point_m.z() < 0.05 || !camera_.project(point_m, &pixel_px)) return false;
-  return (pixel_px - match.pixel_px).norm() < kAgreePx * camera_.focal() / 500;
+  if (point_m.z() < kNearestM || !camera_.project(point_m, &pixel_px)) return false;
+  return (pixel_px - match.pixel_px).norm() < kAgreePx * camera_.focal() / kAtFocalPx;
 }
 
 void PoseScaleCheck::Votes::add(const Votes &more) {

@@ -22,6 +22,9 @@ struct RigOptions {
   std::function<std::unique_ptr<Device>(const std::string &spec, const Wish &wish)> open = openDevice;
 };
 
+// How long a command waits for a pair before it looks whether it was interrupted, and shows what it has so far.
+constexpr std::chrono::milliseconds kPairWait{200};
+
 // Taken at about the same time; on loan.
 struct CapturePair {
   sphc_capture color = {}, depth = {};

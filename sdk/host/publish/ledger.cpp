@@ -99,20 +99,20 @@ int64_t valueOf(sqlite3 *database, const char *statement) {
 
 int64_t versionOf(sqlite3 *database) { return valueOf(database, "PRAGMA user_version"); }
 
-std::string setVersion(int64_t version) { return "PRAGMA user_version = " + std::to_string(version) + ";"; }
+std::string setVersion() { return "PRAGMA user_version = " + std::to_string(kVersion) + ";"; }
 
 std::string orZero(const AddedColumn &column, int64_t version) {
   return version < column.version ? "0" : column.name;
 }
 
-// What makes one of this version a new one.
+// Statements that bring a ledger of this version to the newest.
 std::string upgradeFrom(int64_t version) {
   std::string statements = "BEGIN;";
   for (const AddedColumn &column : {kBand, kFakeOption})
     if (version < column.version)
       statements +=
           std::string("ALTER TABLE place ADD COLUMN ") + column.name + " " + column.type + " NOT NULL DEFAULT 0;";
-  return statements + setVersion(kVersion) + "COMMIT;";
+  return statements + setVersion() + "COMMIT;";
 }
 
 // Tables alone, since a view can hold more rows than any file.
@@ -236,7 +236,7 @@ void Ledger::make(const SecretKey &key) {
   SqliteStatement insert(database_.get(), "INSERT INTO owner VALUES (?)");
   insert.bind(key.data(), key.size()).run();
   run(("PRAGMA application_id = " + std::to_string(kApplication)).c_str());
-  run(setVersion(kVersion).c_str());
+  run(setVersion().c_str());
 }
 
 bool Ledger::isEmpty() const {
@@ -356,12 +356,13 @@ void Ledger::record(const Place &place) {
 }
 
 bool isLedger(const std::string &path) {
-  char head[72] = {};
+  constexpr size_t kApplicationAt = 68;  // in the header of an SQLite file
+  char head[kApplicationAt + 4] = {};
   std::ifstream file(path, std::ios::binary);
   const char application[] = {kApplication >> 24, kApplication >> 16 & 0xFF, kApplication >> 8 & 0xFF,
                               kApplication & 0xFF};
   return file.read(head, sizeof head) && std::memcmp(head, "SQLite format 3", 16) == 0 &&
-         std::memcmp(head + 68, application, sizeof application) == 0;
+         std::memcmp(head + kApplicationAt, application, sizeof application) == 0;
 }
 
 const Release *releaseOf(const Place &place, const std::vector<uint8_t> &file) {

@@ -7,6 +7,15 @@ namespace {
 
 constexpr double kWidestRay2 = 57.0 * 57.0;  // tan(89 deg)^2
 constexpr int kDomainSteps = 512;
+// Newton's method for a ray: it converges quadratically, so more steps are never taken; where it ends, and how near
+// the distorted ray must then be, squared.
+constexpr int kMostSteps = 20;
+constexpr double kConverged2 = 1e-26, kAgrees2 = 1e-16;
+constexpr double kLeastDeterminant = 1e-12;  // below it the distortion folds over there
+constexpr double kInsideDomain = 0.99;       // where to begin, of the widest radius
+// The same for an angle from the axis, between bounds that are halved where Newton goes to and fro between them.
+constexpr int kNewtonSteps = 20, kHalvings = 52;
+constexpr double kOnAxis = 1e-12, kConvergedRad = 1e-15;
 
 uint32_t paramCount(sphc_camera_model model) {
   switch (model) {
@@ -153,16 +162,16 @@ bool Camera::project(const Vector3 &point_m, Vector2 *pixel_px) const {
 bool Camera::undistortBrown(const Vector2 &distorted, Vector2 *ray) const {
   Vector2 guess = distorted;
   const double start2 = guess.squaredNorm();
-  if (start2 > max_radius2_) guess *= sqrtOf(max_radius2_ / start2) * 0.99;
-  for (int i = 0; i < 20; ++i) {
+  if (start2 > max_radius2_) guess *= sqrtOf(max_radius2_ / start2) * kInsideDomain;
+  for (int i = 0; i < kMostSteps; ++i) {
     Eigen::Matrix2d j;
     const Vector2 error = distort(guess, &j) - distorted;
     const double det = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
-    if (!(absOf(det) > 1e-12)) return false;
+    if (!(absOf(det) > kLeastDeterminant)) return false;
     guess -= Vector2(j(1, 1) * error.x() - j(0, 1) * error.y(), j(0, 0) * error.y() - j(1, 0) * error.x()) / det;
-    if (error.squaredNorm() < 1e-26) break;
+    if (error.squaredNorm() < kConverged2) break;
   }
-  if (!(guess.squaredNorm() <= max_radius2_) || !((distort(guess, nullptr) - distorted).squaredNorm() < 1e-16))
+  if (!(guess.squaredNorm() <= max_radius2_) || !((distort(guess, nullptr) - distorted).squaredNorm() < kAgrees2))
     return false;
   *ray = guess;
   return true;
@@ -170,17 +179,19 @@ bool Camera::undistortBrown(const Vector2 &distorted, Vector2 *ray) const {
 
 bool Camera::undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) const {
   const double target = sqrtOf(distorted.squaredNorm());
-  if (target < 1e-12) return *ray = distorted, true;
+  if (target < kOnAxis) {  // where the model is the identity
+    *ray = distorted;
+    return true;
+  }
   double low = 0, high = atan2Of(sqrtOf(max_radius2_), 1), theta = target < high ? target : high;
   if (kannalaBrandt(parameters_.params + 4, high) < target) return false;
-  // Newton, kept inside the shrinking bracket; halves it where that goes to and fro between its ends.
-  constexpr int kNewtonSteps = 20, kHalvings = 52;
+  // Newton, kept inside the shrinking bracket.
   for (int i = 0; i < kNewtonSteps + kHalvings; ++i) {
     const double error = kannalaBrandt(parameters_.params + 4, theta) - target;
     (error > 0 ? high : low) = theta;
     double next = theta - error / kannalaBrandtDerivative(parameters_.params + 4, theta);
     if (i >= kNewtonSteps || !(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (absOf(next - theta) < 1e-15) break;
+    if (absOf(next - theta) < kConvergedRad) break;
     theta = next;
   }
   double s, c;

@@ -16,6 +16,7 @@ namespace sphc::host {
 namespace {
 
 constexpr const char *kMappingGroup = "Mapping";
+constexpr double kMostScaleSpread = 0.05;  // beyond it the depth images are probably of another camera
 
 void addColmapOptions(CLI::App *app, PointSource *source) {
   const char *group = "COLMAP";
@@ -81,7 +82,7 @@ ImportedPoints fromColmap(const PointSource &source, const Interrupt &interrupt)
   imported.model = importColmap(options, shownBy(&bar, &interrupt), &summary);
   imported.told = "Took " + std::to_string(summary.points_kept) + " of " + std::to_string(summary.points_of_model) +
                   " points of the COLMAP model; one unit of it is " + fixed(summary.metres_per_unit, 4) + " m.";
-  if (summary.scale_spread > 0.05)
+  if (summary.scale_spread > kMostScaleSpread)
     imported.warnings.push_back("the images disagree on the scale by " + fixed(100 * summary.scale_spread, 0) +
                                 " %: is --calibration that of the depth images?");
   nlohmann::ordered_json axes = nlohmann::ordered_json::array();
