@@ -49,7 +49,8 @@ sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_
  * be read. [exclusive] of memory and of what `read` does. */
 sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memory, size_t memory_bytes,
                                 sphc_raw_frame *recorded, sphc_message *message);
-/* Times, number and pose alone, without images: frame.color.data and frame.depth.data are null. */
+/* Times, number and pose alone, without images: frame.color.data and frame.depth.data are null.  Errors: as above,
+ * but for memory. [exclusive] of what `read` does. */
 sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_frame *recorded,
                                sphc_message *message);
 

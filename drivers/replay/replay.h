@@ -1,7 +1,8 @@
 /* replay.h - plays a recording of colour and depth images back, as a source or frame by frame.
  *
- * A recording is one MCAP file or a raw file (docs/recording.md), which hold their calibration, or a folder in one
- * of two layouts (docs/drivers.md) with a calibration file in it (calibration.json) or elsewhere:
+ * A recording is one MCAP file or a raw file (docs/recording.md), which hold their calibration, one of another
+ * program (docs/imports.md), or a folder in one of two layouts (docs/drivers.md) with a calibration file in it
+ * (calibration.json) or elsewhere:
  *
  *     7-Scenes  frame-NNNNNN.color.{jpg,png}, frame-NNNNNN.depth.png, frame-NNNNNN.pose.txt; time = NNNNNN / 30 s
  *     TUM       rgb.txt, depth.txt, groundtruth.txt (optional); time as in these lists

@@ -1,4 +1,6 @@
 // Small files, written whole or not at all: what fails or is killed leaves the old one, and at most NAME.part.
+// host/base/write_file.h also brings them to the disk.  It is not installed, but this library is, for programs that
+// link the drivers alone.
 #pragma once
 
 #include <filesystem>

@@ -28,7 +28,9 @@
  * library never resizes, frees or copies it away.  No function of this header allocates, and none frees: where an
  * instance is no longer wanted, its memory may also go without a call of _fini.
  *
- * Failure.  status < 0: outputs are untouched, except a message that explains.
+ * Failure.  status < 0: outputs are untouched, except a message that explains.  What a function's comment does not
+ * list it may return too: SPHC_E_ARGUMENT for a null that it cannot take or an index out of range, and
+ * SPHC_E_STRUCT_SIZE where it takes a struct that has a struct_size.
  *
  * Names.  What belongs to a module begins with its name: sphc_map_, sphc_aligner_, sphc_localizer_, sphc_features_.
  * What all share has none: sphc_image.  Constants leave the module out: sphc_localizer_outcome has SPHC_OUTCOME_.
