@@ -186,18 +186,35 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
   return points.size();
 }
 
-// Names the release by what it holds; none is added when the last one held the same.
-NewRelease finish(Place place, const ReleaseRequest &request, const ReleaseSummary &summary) {
-  const SphereCloud cloud = publishedCloud(place, request.key);
+// The name of a release, by what it holds: the first `count` points of its place.
+MapId idOf(const Place &place, size_t count, const SecretKey &key) {
   std::vector<uint8_t> content;
-  for (const PlacePoint &point : place.points) {
+  for (size_t i = 0; i < count; ++i) {
+    const PlacePoint &point = place.points[i];
     content.insert(content.end(), point.descriptor.bytes, point.descriptor.bytes + kDescriptorBytes);
     for (int coordinate : {point.direction.u, point.direction.v})
       content.insert(content.end(), {static_cast<uint8_t>(coordinate), static_cast<uint8_t>(coordinate >> 8)});
   }
   MapId id;
-  const std::vector<uint8_t> name = keyedHash(request.key, "map id", content, id.size());
+  const std::vector<uint8_t> name = keyedHash(key, "map id", content, id.size());
   std::copy(name.begin(), name.end(), id.begin());
+  return id;
+}
+
+// A ledger with a bit that changed would publish what it never published.
+void checkIsAsReleased(const Place &place, const SecretKey &key) {
+  if (place.releases.empty()) return;
+  const Release &last = place.releases.back();
+  if (idOf(place, last.points, key) != last.map_id)
+    throw std::runtime_error("the ledger is damaged: what it holds of place " + std::to_string(place.number) +
+                             " is not what its release " + std::to_string(place.releases.size()) +
+                             " showed; take the backup");
+}
+
+// None is added when the last release held the same.
+NewRelease finish(Place place, const ReleaseRequest &request, const ReleaseSummary &summary) {
+  const SphereCloud cloud = publishedCloud(place, request.key);
+  const MapId id = idOf(place, place.points.size(), request.key);
   NewRelease made = {std::move(place), encodeMap(cloud, id), summary};
   made.summary.is_same = !made.place.releases.empty() && made.place.releases.back().map_id == id;
   if (!made.summary.is_same)
@@ -258,6 +275,7 @@ NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   Place place;
   if (here) {
     place = request.own[static_cast<size_t>(here - own.data())];
+    checkIsAsReleased(place, request.key);
     refuseChange(place, model.band, request);
     summary.is_update = true;
     summary.place_from_world = here->place_from_model.front();

@@ -111,6 +111,20 @@ TEST(Release, TheSameRecordingAndKeyGiveTheSameBytes) {
   EXPECT_EQ(again.place.releases.size(), 1u);
 }
 
+// Bits rot: an update must show what was published, or nothing.
+TEST(Release, APlaceThatIsNotAsItWasPublishedIsRefused) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  const NewRelease made = makeRelease(room, releaseRequest());
+  NewRelease turned = made, other = made, moved = made;
+  ++turned.place.points[500].direction.u;
+  other.place.points[999].descriptor.bytes[7] ^= 0xFF;
+  moved.place.points[3].seen.position_m.x() += 1e-6;  // never published
+  for (const NewRelease *damaged : {&turned, &other})
+    EXPECT_EQ(refusal(room, releaseRequest({damaged->place})),
+              "the ledger is damaged: what it holds of place 1 is not what its release 1 showed; take the backup");
+  EXPECT_EQ(releaseAfter(moved, room).file, made.file);
+}
+
 // Whoever lost a first release makes it again with its key, years later: what is drawn under a key stays for ever.
 TEST(Release, WhatAKeyDrawsNeverChanges) {
   const PointModel room = test::madeUpRoom(100, 1);
