@@ -62,7 +62,8 @@ class FrameDescriber {
       o.pixel_px = pixel;
       o.depth_m = point.z();
       o.sigma_m = sigma;
-      o.metric_scale_m = static_cast<double>(features_.keypoint(i).scale_px) * point.z() / camera_.focal();
+      o.metric_scale_m =
+          static_cast<double>(features_.keypoint(i).scale_px) * camera_.awayM(point) / camera_.focal();
       o.descriptor = features_.descriptor(i);
       observations.push_back(o);
     }
@@ -79,7 +80,7 @@ class FrameDescriber {
   // Exact across the view, uncertain along it.
   Matrix3 information(const Vector3 &point, double sigma, const Matrix3 &world_from_camera) const {
     const Vector3 view = world_from_camera * point.normalized();
-    const double across_px = kPixelSigma * point.z() / camera_.focal();
+    const double across_px = kPixelSigma * camera_.awayM(point) / camera_.focal();
     const double across2 = across_px * across_px + kPoseSigmaM * kPoseSigmaM;
     const double along2 = sigma * sigma + kPoseSigmaM * kPoseSigmaM;
     return Matrix3::Identity() / across2 + (1 / along2 - 1 / across2) * view * view.transpose();

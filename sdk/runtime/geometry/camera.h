@@ -29,8 +29,11 @@ class Camera {
   int32_t width() const { return static_cast<int32_t>(parameters_.width); }
   int32_t height() const { return static_cast<int32_t>(parameters_.height); }
   bool isPinhole() const { return parameters_.model == SPHC_CAMERA_PINHOLE; }
-  // Its pixels are about even in the angle from the axis, those of others in the tangent of it.
-  bool isFisheye() const { return parameters_.model == SPHC_CAMERA_KANNALA_BRANDT4; }
+  // A pixel is so much of a point's surroundings over the focal length.  Pixels of a fisheye are about even in the
+  // angle from the axis, so it is the distance; those of others in the tangent of it, so it is the depth.
+  double awayM(const Vector3 &point_m) const {
+    return parameters_.model == SPHC_CAMERA_KANNALA_BRANDT4 ? point_m.norm() : point_m.z();
+  }
   // As given, unused parameters 0.
   const sphc_camera &parameters() const { return parameters_; }
   // Largest x^2 + y^2 of a ray (x, y, 1) that has a pixel.

@@ -205,7 +205,7 @@ bool FrontEnd::liftOne(const DepthImages &depth, uint32_t k, double *z_m) {
   Vector3 point_m;
   if (!measure(eye, depth, pixel_px, teaches_ && !is_further, &point_m, &sigma_z)) return false;
   const double z = *z_m = point_m.z(), range = point_m.norm();
-  const double away_m = eye.view().color().isFisheye() ? range : z;
+  const double away_m = eye.view().color().awayM(point_m);
   LiftedPoint lifted = {point_m, hypotOf(sigma_px * away_m / eye.focal_px, map_sigma_m_),
                         hypotOf(sigma_z * range / z, map_sigma_m_)};
   if (is_further && !toColor(eye.color_from_camera, &lifted)) return false;

@@ -74,6 +74,24 @@ TEST(Camera, EveryRadiusOfAFisheyeHasItsRay) {
   }
 }
 
+// Beside a point far from the axis, across the plane through both.
+TEST(Camera, APixelIsSoMuchOfAPointsSurroundings) {
+  const double focal = 300;
+  const Vector3 point(2, 0, 1), beside(2, 1e-4, 1);
+  const Camera pinhole(sphc_camera{SPHC_CAMERA_PINHOLE, 640, 480, 4, {focal, focal, 320, 240}});
+  const Camera fisheye(sphc_camera{SPHC_CAMERA_KANNALA_BRANDT4, 640, 480, 8, {focal, focal, 320, 240, 0, 0, 0, 0}});
+  const auto metresOfAPixel = [&](const Camera &camera) {
+    Vector2 at, by;
+    EXPECT_TRUE(camera.project(point, &at) && camera.project(beside, &by));
+    return (beside - point).norm() / (by - at).norm();
+  };
+  EXPECT_NEAR(pinhole.awayM(point) / focal, metresOfAPixel(pinhole), 1e-9);
+  // Along the way from the axis it is the distance, across it less.
+  EXPECT_GT(fisheye.awayM(point) / focal, metresOfAPixel(fisheye));
+  EXPECT_LT(fisheye.awayM(point) / focal, 1.3 * metresOfAPixel(fisheye));
+  EXPECT_GT(metresOfAPixel(fisheye), 1.5 * pinhole.awayM(point) / focal);
+}
+
 TEST(Camera, PointToPixelToRay) {
   Random random(7);
   for (const Named &c : cameras()) {
