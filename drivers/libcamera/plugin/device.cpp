@@ -103,8 +103,9 @@ std::shared_ptr<Camera> Device::find(const char *id) const {
   const std::vector<std::shared_ptr<Camera>> cameras = manager_->cameras();
   for (const std::shared_ptr<Camera> &camera : cameras)
     if (!id || camera->id() == id) return camera;
-  refuse(SPHC_E_DEVICE, std::string("no camera ") + (id ? id : "") + " of " + std::to_string(cameras.size()) +
-                            "; is it plugged in, and may this user read /dev/video* and /dev/media*?");
+  const std::string which =
+      id ? "no camera " + std::string(id) + " of " + std::to_string(cameras.size()) : "no camera was found";
+  refuse(SPHC_E_DEVICE, which + "; is it plugged in, and may this user read /dev/video* and /dev/media*?");
 }
 
 Device::~Device() {

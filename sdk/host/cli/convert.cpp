@@ -269,7 +269,8 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
     console.warn("note: left out: amplitudes of " + counted(result.amplitudes, "depth image") +
                  "; an MCAP file keeps them");
   if (facts.acceleration_count && options.target != Target::kMcap)
-    console.warn("note: left out: " + counted(facts.acceleration_count, "acceleration") +
+    console.warn("note: left out: " +
+                 (options.in.isPart() ? "accelerations" : counted(facts.acceleration_count, "acceleration")) +
                  "; an MCAP file keeps them");
   const uint32_t posed = result.poses + result.unreadable_poses;
   if (options.isByFrame() && facts.depth_count > facts.depth_in_frames)

@@ -566,6 +566,9 @@ TEST(Convert, KeepsAccelerationsInAFile) {
     ASSERT_EQ(without.exit_code, kExitDone) << without.err;
     EXPECT_EQ(nlohmann::json::parse(without.out)["accelerations"], 0);
     EXPECT_THAT(without.err, HasSubstr("note: left out: 201 accelerations; an MCAP file keeps them")) << to;
+    EXPECT_THAT(runCommand("convert --first 1 " + walk + " " + (folder / "part_") + to).err,
+                HasSubstr("note: left out: accelerations; an MCAP file keeps them"))
+        << to;
   }
   EXPECT_THAT(runCommand("simulate --frames 1 --accelerometer 50 --out " + (folder / "none")).err,
               HasSubstr("a folder keeps no accelerations"));
