@@ -79,7 +79,7 @@ TEST(Colmap, SaysWhatIsWrongWithTheRig) {
            {"1 2 CAMERA 1 CAMERA 2 1 1 1 0 0 1 2 3", "not of unit length"},
            {"1 2 CAMERA 1 CAMERA 2 1 1 0 0 0 inf 2 3", "must be a finite number"},
            {"1 2 CAMERA 1 CAMERA 1 1 1 0 0 0 1 2 3", "camera '1' stands there twice"}}) {
-    EXPECT_THAT(test::refusal([&] { readRigged(rig); }), testing::HasSubstr(says)) << rig;
+    EXPECT_THAT(test::refusal([rig = rig] { readRigged(rig); }), testing::HasSubstr(says)) << rig;
   }
 }
 

@@ -354,10 +354,10 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
 
 // Photos of the recording itself have its poses, wherever these come from.
 TEST_F(FilesTest, AnAuditTakesTheToldPosesForPhotosToo) {
-  fs::copy(at("walk"), at("without_poses"), fs::copy_options::recursive);
-  fs::remove(at("without_poses/groundtruth.txt"));
+  fs::copy(at("walk"), at("audited_walk"), fs::copy_options::recursive);
+  fs::remove(at("audited_walk/groundtruth.txt"));
   const Answer audited = runCommand("audit " + at("room.sphc") + " --truth " + at("spherecloud.ledger") +
-                                    " --only photos --json --recording " + at("without_poses") +
+                                    " --only photos --json --recording " + at("audited_walk") +
                                     " --last 1 --photos-first 2 --poses-from " + at("walk/groundtruth.txt"));
   EXPECT_EQ(audited.exit_code, kExitAuditIncomplete) << audited.err;
   for (const auto &figure : nlohmann::json::parse(audited.out)["figures"])
