@@ -1,5 +1,8 @@
 #include "runtime/geometry/rotation.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace sphc {
 
 namespace {
@@ -8,13 +11,11 @@ constexpr double kLeastSquare = 1e-200, kMostSquare = 1e200;
 
 // Of numbers whose squares vanish or overflow, or are none: as numbers of ordinary size.
 Matrix3 rotationFromExtreme(const double q_wxyz[4]) {
-  double largest = 0, sum = 0, scaled[4];
+  double largest = 0, scaled[4];
   for (int i = 0; i < 4; ++i) {
-    const double size = absOf(q_wxyz[i]);
-    largest = size > largest ? size : largest;
-    sum += 0 * size;  // not 0 where one is no number, or infinite
+    if (!isFinite(q_wxyz[i])) return Matrix3::Constant(std::numeric_limits<double>::quiet_NaN());
+    largest = std::max(largest, absOf(q_wxyz[i]));
   }
-  if (sum != 0) return Matrix3::Constant(sum);
   if (largest == 0) return Matrix3::Identity();
   for (int i = 0; i < 4; ++i) scaled[i] = q_wxyz[i] / largest;
   return rotationFromQuaternion(scaled);

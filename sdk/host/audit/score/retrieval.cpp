@@ -61,6 +61,10 @@ double alike(const cv::Mat &edges, const Known &truth) {
 
 }  // namespace
 
+double standardErrorOfShare(double share, size_t count) {
+  return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(count)));
+}
+
 Retrieval retrieve(const std::vector<cv::Mat> &pictures, const std::vector<TruthView> &truths, int cells) {
   std::vector<Known> known;
   for (const TruthView &truth : truths) known.emplace_back(truth, cells);
@@ -74,7 +78,7 @@ Retrieval retrieve(const std::vector<cv::Mat> &pictures, const std::vector<Truth
   }
   const auto n = static_cast<double>(std::max<size_t>(1, pictures.size()));
   retrieval.top1 = static_cast<double>(std::count(retrieval.hits.begin(), retrieval.hits.end(), true)) / n;
-  retrieval.standard_error = std::sqrt(retrieval.top1 * (1 - retrieval.top1) / n);
+  retrieval.standard_error = standardErrorOfShare(retrieval.top1, retrieval.hits.size());
   return retrieval;
 }
 

@@ -12,6 +12,9 @@ struct Retrieval {
   double top1 = 0, standard_error = 0;
 };
 
+// Of a share of so many; 0 of none.
+double standardErrorOfShare(double share, size_t count);
+
 // Cells of a picture, both ways, in which edges are compared.  Fine finds the most, given the very pose of the
 // picture; coarse needs it to a few degrees only.
 constexpr int kFineCells = 32, kCoarseCells = 8;

@@ -6,6 +6,7 @@
 
 #include "host/audit/score/attacks/attacks.h"
 #include "host/audit/score/audit_context.h"
+#include "host/audit/score/retrieval.h"
 #include "host/publish/secret_random.h"
 
 namespace sphc::host {
@@ -67,16 +68,12 @@ class Painter {
   uint32_t painted_ = 0;  // sets, by each network
 };
 
-// Of a share of so many views.
-double standardErrorOf(double share, size_t views) {
-  return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(views)));
-}
-
 // Pictures that tell something have to be compared with something.  The errors of both shares count as independent.
 Measurement ratioOf(const std::string &figure, double own, double papers, size_t views) {
   if (papers > 0)
-    return {figure, own / papers, "",
-            std::hypot(standardErrorOf(own, views), own / papers * standardErrorOf(papers, views)) / papers};
+    return {
+        figure, own / papers, "",
+        std::hypot(standardErrorOfShare(own, views), own / papers * standardErrorOfShare(papers, views)) / papers};
   if (own > 0) return {figure, {}, "the paper's fakes tell none of the views, to compare with"};
   return {figure, 0};
 }
@@ -98,8 +95,8 @@ AttackResult runInversion(AuditContext *context) {
     of_papers.remark = std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
   painter.result.measurements = {of_papers,
                                  ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count),
-                                 {"inversion.retrieval", own.coarse, "", standardErrorOf(own.coarse, count)},
-                                 {"inversion.retrieval_fine", own.fine, "", standardErrorOf(own.fine, count)},
+                                 {"inversion.retrieval", own.coarse, "", standardErrorOfShare(own.coarse, count)},
+                                 {"inversion.retrieval_fine", own.fine, "", standardErrorOfShare(own.fine, count)},
                                  {"inversion.retrieval_paper", paper.coarse},
                                  {"inversion.retrieval_fine_paper", paper.fine},
                                  {"inversion.retrieval_shuffled", chance.coarse},
