@@ -15,6 +15,7 @@
 #   tsan_commands  the same on the commands that have threads
 #   coverage     lines and branches of the device's libraries and of the parsers that tests reach, against floors
 #   emulated     the runtime's unit tests on other machines, in emulators
+#   windows      the runtime for Windows, in Wine: the same bytes, and its unit tests
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
 #   bare_packages  the Debian packages, installed and used in such a Debian
 #
@@ -27,7 +28,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
-apart=(quick tsan_commands coverage emulated first_pose bare_packages) # not of all
+apart=(quick tsan_commands coverage emulated windows first_pose bare_packages) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -190,6 +191,14 @@ stage_emulated() {
       -DSPHC_UNITY_RUNTIME=ON -DSPHC_PRECOMPILE_RUNTIME=ON
     tests "emulated: the runtime's unit tests on $machine" "$folder"
   done
+}
+
+stage_windows() {
+  prepare runtime portability windows
+  check "windows: the same bytes" tests/portability/variants.sh windows
+  check "windows: build" build build/windows all --preset windows -DSPHC_TESTS=ON $unity -DSPHC_UNITY_RUNTIME=ON \
+    -DSPHC_PRECOMPILE_RUNTIME=ON
+  tests "windows: the runtime's unit tests" build/windows
 }
 
 stage_first_pose() {

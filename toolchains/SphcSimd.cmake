@@ -3,6 +3,11 @@
 #   static    what the compiler's flags allow.  Headers of Highway alone.
 #   scalar    single lanes.  Headers of Highway alone.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+  set(is_x86_64 ON)
+else()
+  set(is_x86_64 OFF)
+endif()
+if(is_x86_64 AND NOT WIN32) # for which no package has libhwy
   set(default dispatch)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm" AND NOT CMAKE_SYSTEM_PROCESSOR MATCHES "arm64")
   set(default scalar)
@@ -34,7 +39,7 @@ if(SPHC_SIMD STREQUAL "dispatch")
 else()
   string(TOUPPER ${SPHC_SIMD} policy)
   target_compile_definitions(sphc_flags INTERFACE HWY_COMPILE_ONLY_${policy})
-  if(default STREQUAL "dispatch")
+  if(is_x86_64)
     # No kernel encrypts; without this, AVX2 is used where -maes and -mpclmul are given too, which x86-64-v3 has not.
     target_compile_definitions(sphc_flags INTERFACE HWY_DISABLE_PCLMUL_AES)
   endif()

@@ -33,14 +33,15 @@ arguments() {
     riscv64) mapfile -t arguments < <(machine riscv64-linux-gnu) && arguments+=("${small[@]}") ;;
     i686) mapfile -t arguments < <(machine i686-linux-gnu) && arguments+=("${small[@]}") ;;
     cortex-m7) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${small[@]}") ;;
+    windows) mapfile -t arguments < <(machine x86_64-w64-mingw32) && arguments+=("${release[@]}") ;;
     *) echo "no variant \"$1\"; there are: $all" && return 1 ;;
   esac
 }
 all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 cortex-m7"
-# Too slow for all: memory.
+# Not of all: memory is too slow, windows needs packages of its own.
 # Compiled several files at once, in half of the time.  The others show that every file compiles alone, with the headers of
 # glibc and of newlib, and what firmware links.
-unity=" debug clang clang-debug memory aarch64 armhf riscv64 i686 "
+unity=" debug clang clang-debug memory aarch64 armhf riscv64 i686 windows "
 
 # Those that size.csv has a row for.
 sized() { cut -d, -f1 "$here/size.csv" | grep -x "$1"; }

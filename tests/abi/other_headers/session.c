@@ -19,9 +19,10 @@ static int isMarked(const uint8_t *mark, size_t bytes) {
   return 1;
 }
 
-/* A multiple of the alignment, as aligned_alloc wants it. */
-static size_t whole(uint64_t bytes, uint32_t alignment) {
-  return (size_t)((bytes + alignment - 1) / alignment * alignment);
+/* An aligned place in `block`, which is to be freed.  Not every C library has aligned_alloc. */
+static void *allocated(size_t bytes, uint32_t alignment, void **block) {
+  *block = malloc(bytes + alignment);
+  return (uint8_t *)*block + (alignment - (uintptr_t)*block % alignment) % alignment;
 }
 
 /* 0, or the line of what went wrong; so do all below. */
@@ -31,15 +32,15 @@ static int aligns(const seen *what) {
   sphc_memory need;
   sphc_aligner *aligner = NULL;
   size_t bytes;
-  void *memory;
+  void *memory, *block;
   uint16_t *depth = (uint16_t *)calloc((size_t)what->color.width * what->color.height, sizeof *depth);
   memset(&config, MARK, sizeof config);
   CHECK(sphc_aligner_config_init(&config.its, sizeof config.its) == SPHC_OK);
   CHECK(isMarked(config.mark, sizeof config.mark));
   config.its.rig = what->rig;
   CHECK(sphc_aligner_memory(&config.its, &need, NULL) == SPHC_OK);
-  bytes = whole(need.state_bytes, need.alignment);
-  memory = aligned_alloc(need.alignment, bytes);
+  bytes = (size_t)need.state_bytes;
+  memory = allocated(bytes, need.alignment, &block);
   CHECK(sphc_aligner_init(memory, bytes, &config.its, &aligner, NULL) == SPHC_OK);
   memset(&aligned, 0, sizeof aligned);
   aligned.struct_size = sizeof aligned;
@@ -48,7 +49,7 @@ static int aligns(const seen *what) {
   CHECK(sphc_aligner_process(aligner, &what->depth, &aligned) == SPHC_OK);
   CHECK(depth[what->color.width * (what->color.height / 2) + what->color.width / 2] > 0);
   sphc_aligner_fini(&aligner);
-  free(memory);
+  free(block);
   free(depth);
   return 0;
 }
@@ -78,13 +79,13 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   sphc_memory need;
   sphc_map *map = NULL;
   sphc_localizer *localizer = NULL;
-  void *view, *state, *scratch;
+  void *view, *state, *scratch, *view_block, *state_block, *scratch_block;
   size_t view_bytes, state_bytes, scratch_bytes;
   int line;
 
   CHECK(sphc_map_memory(&need) == SPHC_OK && need.state_bytes <= SPHC_MAP_BYTES_MAX);
-  view_bytes = whole(need.state_bytes, need.alignment);
-  view = aligned_alloc(need.alignment, view_bytes);
+  view_bytes = (size_t)need.state_bytes;
+  view = allocated(view_bytes, need.alignment, &view_block);
   CHECK(sphc_map_init(view, view_bytes, what->file, what->file_bytes, &map, NULL) == SPHC_OK);
   memset(&info, MARK, sizeof info);
   info.its.struct_size = sizeof info.its;
@@ -100,10 +101,10 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   CHECK(need.state_bytes <= SPHC_LOCALIZER_STATE_BYTES_MAX(config.its.max_keypoints, config.its.max_maps));
   CHECK(need.scratch_bytes <=
         SPHC_LOCALIZER_SCRATCH_BYTES_MAX(config.its.max_keypoints, what->color.width, what->color.height));
-  state_bytes = whole(need.state_bytes, need.alignment);
-  scratch_bytes = whole(need.scratch_bytes, need.alignment);
-  state = aligned_alloc(need.alignment, state_bytes);
-  scratch = aligned_alloc(need.alignment, scratch_bytes);
+  state_bytes = (size_t)need.state_bytes;
+  scratch_bytes = (size_t)need.scratch_bytes;
+  state = allocated(state_bytes, need.alignment, &state_block);
+  scratch = allocated(scratch_bytes, need.alignment, &scratch_block);
   CHECK(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config.its, &localizer, NULL) == SPHC_OK);
   CHECK(sphc_localizer_set_map(localizer, 5, map) == SPHC_OK);
 
@@ -124,8 +125,8 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
 
   sphc_localizer_fini(&localizer);
   sphc_map_fini(&map);
-  free(scratch);
-  free(state);
-  free(view);
+  free(scratch_block);
+  free(state_block);
+  free(view_block);
   return 0;
 }

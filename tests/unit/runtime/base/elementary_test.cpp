@@ -12,6 +12,11 @@ namespace sphc {
 namespace {
 
 constexpr int kTrials = 200000;
+#ifdef _WIN32  // whose own sine is off by as much at large angles
+constexpr double kMostOff = 2e-15;
+#else
+constexpr double kMostOff = 1e-15;
+#endif
 
 TEST(Elementary, SinCosMatchesLibmOverItsRange) {
   Random random(1);
@@ -26,7 +31,7 @@ TEST(Elementary, SinCosMatchesLibmOverItsRange) {
     EXPECT_NEAR(s * s + c * c, 1, 1e-15);
   }
   EXPECT_LT(worst_small, 1e-15);
-  EXPECT_LT(worst, 1e-15);
+  EXPECT_LT(worst, kMostOff);
 }
 
 TEST(Elementary, SinCosAtTheQuarters) {

@@ -1,0 +1,15 @@
+# 64-bit Windows with Debian's cross compiler (g++-mingw-w64-x86-64-posix): programs need none of the compiler's DLLs, and run in
+# Wine.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
+set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
+set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_C_FLAGS_INIT -march=x86-64-v2) # SSE4: of AVX gcc may misalign variables on this system's stack (its bug 54412)
+set(CMAKE_CXX_FLAGS_INIT -march=x86-64-v2)
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+set(CMAKE_SHARED_LINKER_FLAGS_INIT -static)
+set(CMAKE_CROSSCOMPILING_EMULATOR env;WINEDEBUG=-all;wine)
