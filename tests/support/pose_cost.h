@@ -1,5 +1,7 @@
 // The cost of a pose and a depth bias in double precision and plain words, for derivatives by differences.
 #pragma once
+#include <Eigen/LU>
+
 #include "runtime/stages/pose/refine.h"
 #include "runtime/stages/pose/residual.h"
 
@@ -35,7 +37,8 @@ struct PoseCost {
     // depth * view = t + m * ray, as well as they can
     Eigen::Matrix<double, 3, 2> rays;
     rays << view, -ray;
-    const Vector2 lengths = (rays.transpose() * rays).ldlt().solve(rays.transpose() * t);
+    const Matrix2 normal = rays.transpose() * rays;
+    const Vector2 lengths = normal.inverse() * (rays.transpose() * t);
     return lossOf(sine * sine / (sigma * sigma), lengths[0] > 0 && lengths[1] > 0);
   }
 };

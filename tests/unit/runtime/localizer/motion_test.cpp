@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "runtime/localizer/tracker.h"
+#include "tests/support/dense_matrix.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc {
@@ -124,8 +123,7 @@ TEST(Motion, BetweenTwoPosesACovarianceIsLeft) {
       const Matrix6 correlation = between.covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() *
                                   between.covariance *
                                   between.covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
-      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(correlation).eigenvalues()[0], 1e-4)
-          << frame_ns << " " << part;
+      EXPECT_GT(test::leastEigenvalue(correlation), 1e-4) << frame_ns << " " << part;
     }
   }
 }
@@ -349,7 +347,7 @@ double alikenessOf(int64_t ahead_ns) {
                   moveTo(kStart + frame * kMotionFrame + ahead_ns, motion, &moved));
       const Vector6 error =
           errorOf(moved.camera_from_map, head.cameraFromMap(time_s + 1e-9 * static_cast<double>(ahead_ns)));
-      sum += error.dot(moved.covariance.inverse() * error) / 6;
+      sum += test::normalisedSquared(error, moved.covariance) / 6;
       count += 1;
     }
   }

@@ -1,8 +1,6 @@
 // Normal equations of the kernels against derivatives by differences.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include "tests/support/pose_cost.h"
 #include "tests/support/pose_rows.h"
 #include "tests/support/random_numbers.h"

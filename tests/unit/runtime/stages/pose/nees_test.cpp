@@ -3,10 +3,10 @@
 // freedom.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "runtime/stages/pose/estimator.h"
+#include "tests/support/dense_matrix.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/sensor_world.h"
 #include "tests/unit/runtime/stages/pose/pose_test_estimator.h"
@@ -49,12 +49,11 @@ Nees neesOf(const Setting &setting) {
     const Estimate estimate = estimator.search(world, query);
     const Vector6 xi = test::poseError(estimate.camera_from_map, world.camera_from_map);
     const Matrix6 &c = estimate.covariance;
-    const Matrix3 of_rotation = c.topLeftCorner<3, 3>(), of_translation = c.bottomRightCorner<3, 3>();
-    nees.pose += xi.dot(c.ldlt().solve(xi)) / kWorlds;
-    nees.rotation += xi.head<3>().dot(of_rotation.ldlt().solve(xi.head<3>())) / kWorlds;
-    nees.translation += xi.tail<3>().dot(of_translation.ldlt().solve(xi.tail<3>())) / kWorlds;
+    nees.pose += test::normalisedSquared(xi, c) / kWorlds;
+    nees.rotation += test::normalisedSquared(xi.head<3>(), c.topLeftCorner<3, 3>()) / kWorlds;
+    nees.translation += test::normalisedSquared(xi.tail<3>(), c.bottomRightCorner<3, 3>()) / kWorlds;
     const Vector2 off = estimate.depth.mean - options.bias;
-    if (!query.depth.isKnown()) nees.bias += off.dot(estimate.depth.covariance.ldlt().solve(off)) / kWorlds;
+    if (!query.depth.isKnown()) nees.bias += test::normalisedSquared(off, estimate.depth.covariance) / kWorlds;
   }
   return nees;
 }

@@ -13,7 +13,10 @@ namespace {
 
 // Some rotation that takes `up` to z.
 Matrix3 uprightFrom(const Vector3 &up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
+  const Vector3 across = up.unitOrthogonal();
+  Matrix3 rotation;
+  rotation << across.transpose(), up.cross(across).transpose(), up.transpose();
+  return rotation;
 }
 
 struct UprightProblem {
