@@ -93,7 +93,7 @@ class Validator {
       return fail(SPHC_E_MAP_FORMAT) << "map has " << header().point_count << " points; allowed are "
                                      << kMapMinPoints << " to " << kMapMaxPoints << kRebuild;
     const uint32_t cells = header().cell_count, groups = header().group_count, side = header().sector_side;
-    if (cells == 0 || cells > kMapMaxCells || groups == 0 || groups > kMapMaxGroups || groups > cells)
+    if (cells > kMapMaxCells || groups == 0 || groups > kMapMaxGroups || groups > cells)
       return fail(SPHC_E_MAP_FORMAT) << "map has an impossible index of " << cells << " cells in " << groups
                                      << " groups" << kRebuild;
     if (side == 0 || side > kMapMaxSectorSide || (side & (side - 1)))
