@@ -106,6 +106,37 @@ TEST(ClockMapper, AClockThatIsSetStartsAnew) {
   EXPECT_EQ(restarts, 3);
   run(100);
   EXPECT_LT(std::llabs(mapped(mapper, source_ns) - device.hostNs(source_ns)), 8 * kMs);
+  sphc_clock_mapping mapping = {};
+  ASSERT_EQ(mapper.get(&mapping), SPHC_OK);
+  EXPECT_EQ(mapping.restarts, 3u);
+}
+
+TEST(ClockMapper, ATimeThatStandsStillOrIsAnHourOnStartsAnew) {
+  for (const int64_t step_ns : {int64_t{0}, 3601 * kSecond}) {
+    ClockMapper mapper(defaults());
+    EXPECT_EQ(mapper.add(kSecond, kSecond + kMs), SPHC_OK);
+    EXPECT_EQ(mapper.add(kSecond + step_ns, kSecond + step_ns + kMs), SPHC_AGAIN) << step_ns;
+  }
+}
+
+// Lateness that falls by 4 ms tells no rate within two seconds, and after three none that a clock may not have.
+TEST(ClockMapper, ADriftIsNoMoreThanAClockHas) {
+  const auto mappingAfter = [](int64_t time_ns, int64_t *host_ns) {
+    ClockMapper mapper(defaults());
+    EXPECT_EQ(mapper.add(0, 5 * kMs), SPHC_OK);
+    EXPECT_EQ(mapper.add(time_ns, time_ns + kMs), SPHC_OK);
+    sphc_clock_mapping mapping = {};
+    EXPECT_EQ(mapper.get(&mapping), SPHC_OK);
+    *host_ns = mapped(mapper, time_ns);
+    return mapping;
+  };
+  int64_t host_ns = 0;
+  EXPECT_EQ(mappingAfter(kSecond, &host_ns).drift_ppm, 0);
+  const sphc_clock_mapping mapping = mappingAfter(3 * kSecond, &host_ns);
+  EXPECT_NEAR(mapping.drift_ppm, -200, 1e-6);
+  EXPECT_NEAR(static_cast<double>(host_ns), 3e9 + 1e6, 2) << "no sample arrives before it is taken";
+  // The first is 3.4 ms late by this line, and the config's delay is known to 1 ms.
+  EXPECT_NEAR(static_cast<double>(mapping.sigma_ns), std::hypot(3.4e6 / std::sqrt(2.0), 1e6), 10);
 }
 
 TEST(ClockMapper, AStallIsNoJump) {
@@ -113,13 +144,17 @@ TEST(ClockMapper, AStallIsNoJump) {
   for (int i = 1; i <= 100; ++i) EXPECT_EQ(mapper.add(i * 10 * kMs, i * 10 * kMs + kMs), SPHC_OK);
   for (int i = 101; i <= 105; ++i) EXPECT_EQ(mapper.add(i * 10 * kMs, 3 * kSecond + i), SPHC_OK);
   EXPECT_EQ(mapped(mapper, 2 * kSecond), 2 * kSecond + kMs);
+  sphc_clock_mapping mapping = {};
+  ASSERT_EQ(mapper.get(&mapping), SPHC_OK);
+  EXPECT_EQ(mapping.sigma_ns, defaults().delay_sigma_ns) << "what stalled tells nothing of the others";
 }
 
 TEST(ClockMapper, ForgetsWhatLiesBeyondTheWindow) {
   ClockMapper mapper(defaults());
   for (int64_t i = 1; i <= 10; ++i) ASSERT_EQ(mapper.add(i * kSecond, i * kSecond + kMs), SPHC_OK);
   for (int64_t i = 60; i <= 65; ++i) ASSERT_EQ(mapper.add(i * kSecond, i * kSecond + 9 * kMs), SPHC_OK);
-  EXPECT_EQ(mapped(mapper, 65 * kSecond), 65 * kSecond + 9 * kMs);
+  for (const int64_t time_s : {60, 65, 70})
+    EXPECT_EQ(mapped(mapper, time_s * kSecond), time_s * kSecond + 9 * kMs) << time_s;
 }
 
 TEST(ClockMapper, RunsForDays) {

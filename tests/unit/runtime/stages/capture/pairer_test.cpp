@@ -167,6 +167,27 @@ TEST(Pairer, BeyondToleranceTheOlderIsDropped) {
   EXPECT_EQ(drain(&pairer), "");
   pairer.flush();
   EXPECT_EQ(drain(&pairer), "c155+d150 ");
+  Pairer late = makePairer(4, 10);
+  late.push(depth(100));
+  late.push(color(150));
+  late.flush();
+  EXPECT_EQ(drain(&late), "-d100 -c150 ");
+}
+
+// The next colour image is nearer to the first depth image, and the second depth image nearer to that one.
+TEST(Pairer, ANearerImageWithANearerOneOfItsOwnOvertakesNobody) {
+  Pairer pairer = makePairer();
+  for (const sphc_capture &next : {color(100), color(110), depth(106), depth(111)}) pairer.push(next);
+  pairer.flush();
+  EXPECT_EQ(drain(&pairer), "c100+d106 c110+d111 ");
+}
+
+TEST(Pairer, WhereNothingIsDroppedItSaysSo) {
+  Pairer pairer = makePairer();
+  Pair pair;
+  sphc_capture dropped = color(1);
+  EXPECT_EQ(pairer.pop(&pair.color, &pair.depth, &dropped), SPHC_AGAIN);
+  EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
 }
 
 TEST(Pairer, TimesFarApartAreNoPair) {
