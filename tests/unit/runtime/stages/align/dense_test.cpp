@@ -59,6 +59,10 @@ struct DenseRig {
     depth.assign(pixels, 7);
     mask.assign(pixels, 7);
     confidence.assign(pixels, 7);
+    process();
+  }
+  // One image more, by the same aligner.
+  void process() {
     const int32_t width = config.depth.width();
     aligner.process({raw.data(), width, config.depth.height(), width},
                     {depth.data(), mask.data(), confidence.data(), config.color.width(), config.color.width(),
@@ -198,6 +202,42 @@ TEST(Dense, WidthsThatAreNoWholeVectors) {
   rig.align();
   EXPECT_EQ(rig.depth, rig.raw);
   EXPECT_EQ(rig.count(SPHC_ALIGNED_MEASURED), 75 * 48);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 64; x < 75; ++x) EXPECT_NE(rig.confidence[rig.at(x, y)], 7) << x << " " << y;
+}
+
+// Nothing is left of the image before.
+TEST(Dense, EachImageStandsAlone) {
+  for (const Pair &pair : cameraPairs()) {
+    SCOPED_TRACE(pair.name);
+    DenseRig rig(pair.color, pair.depth, kBeside), fresh(pair.color, pair.depth, kBeside);
+    rig.measure([](const Vector2 &ray) { return ray.norm() < 0.3 ? 0.8 : 1.5; });
+    rig.align();
+    for (DenseRig *of : {&rig, &fresh}) of->measure([](const Vector2 &ray) { return ray.y() < 0.1 ? 3.0 : 0.0; });
+    fresh.align();
+    rig.process();
+    EXPECT_EQ(rig.depth, fresh.depth);
+    EXPECT_EQ(rig.mask, fresh.mask);
+    EXPECT_EQ(rig.confidence, fresh.confidence);
+  }
+}
+
+// A square of 30 cm, 1 m away, 2 m before a wall; the colour camera 10 cm beside the depth camera.
+TEST(Dense, OnTheColourCamerasSideTheWallIsOccluded) {
+  const Pair pair = cameraPairs()[0];
+  const double f = pair.color.params[0];
+  for (const Vector2 &side : {Vector2(1, 0), Vector2(-1, 0), Vector2(0, 1), Vector2(0, -1)}) {
+    DenseRig rig(pair.color, pair.depth, Rigid{Matrix3::Identity(), Vector3(-0.1 * side.x(), -0.1 * side.y(), 0)});
+    rig.measure([](const Vector2 &ray) { return ray.cwiseAbs().maxCoeff() < 0.15 ? 1.0 : 3.0; });
+    rig.align();
+    const auto at = [&](double along) {  // in the colour image, towards the camera's side
+      return rig.at(static_cast<int>(80 + along * f * side.x()), static_cast<int>(60 + along * f * side.y()));
+    };
+    EXPECT_NEAR(rig.depth[at(0)], 1000, 1) << side.transpose();
+    EXPECT_EQ(rig.mask[at((0.05 + 0.15 - 0.1 / 3) / 2)], SPHC_ALIGNED_OCCLUDED) << side.transpose();
+    EXPECT_NEAR(rig.depth[at(0.15)], 3000, 1) << side.transpose();
+    EXPECT_NEAR(rig.depth[at(-0.29)], 3000, 1) << side.transpose();
+  }
 }
 
 TEST(Dense, TheChosenUnit) {

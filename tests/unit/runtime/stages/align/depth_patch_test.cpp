@@ -85,5 +85,20 @@ TEST(DepthPatch, OutsideTheImage) {
   EXPECT_NEAR(image.patch(0, 0).depth_m, 2, 1e-9);  // the corner has nine neighbours
 }
 
+// A hole beside an edge takes what lies nearest, not what lies behind.
+TEST(DepthPatch, InAHoleTheNearestMeasurementCounts) {
+  const Image image([](int x, int) { return x < 8 ? 1.5 : x < 10 ? 0.0 : 3.0; });
+  EXPECT_NEAR(image.patch(7.6, 8).depth_m, 1.5, 1e-3);
+  EXPECT_NEAR(image.patch(9.4, 8).depth_m, 3, 1e-3);
+}
+
+TEST(DepthPatch, NoiseBeyondTheSensorsIsTold) {
+  Random random(2);
+  double sum = 0;
+  for (int i = 0; i < 50; ++i)
+    sum += Image([&](int, int) { return 2 + 0.04 * test::normal(&random); }).patch(9, 8).sigma_m / 50;
+  EXPECT_GT(sum, 2 * kPatchSensor.sigmaAt(2));
+}
+
 }  // namespace
 }  // namespace sphc

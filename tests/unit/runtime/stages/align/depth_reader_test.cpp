@@ -111,6 +111,9 @@ TEST_F(DepthReaderTest, RangesAtTheirLimits) {
   config_.camera = Camera(test::pinhole(kReaderWidth, kReaderHeight, 1e6));
   units_.assign(units_.size(), 65535);
   for (const uint16_t z : readUnits()) EXPECT_GE(z, 65534);
+  units_.assign(units_.size(), 2000);
+  for (const uint16_t z : readUnits()) EXPECT_EQ(z, 2000) << "rounded to the nearest";
+  units_.assign(units_.size(), 65535);
   sphc_camera fisheye = test::pinhole(kReaderWidth, kReaderHeight, 1);
   fisheye.model = SPHC_CAMERA_KANNALA_BRANDT4;
   fisheye.param_count = 8;
@@ -174,6 +177,9 @@ TEST_F(DepthReaderTest, SlopesEdgesAndThinThingsStay) {
   for (int32_t y = 0; y < kReaderHeight; ++y)
     for (int32_t x = 0; x < kReaderWidth; ++x) at(x, y) = x == 4 ? 1000 : 2000;
   EXPECT_EQ(readUnits(), units_);
+  for (int32_t y = 0; y < kReaderHeight; ++y)
+    for (int32_t x = 0; x < kReaderWidth; ++x) at(x, y) = x < 4 ? 0 : x == 4 ? 2000 : 2500;
+  EXPECT_EQ(readUnits(), units_) << "a hole is not nearer";
 }
 
 }  // namespace

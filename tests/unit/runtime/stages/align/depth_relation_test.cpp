@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "runtime/base/random.h"
 
 namespace sphc {
@@ -64,6 +66,27 @@ TEST(DepthRelation, ForgetsWithTime) {
   const double later_m = relation.asFirst({2.0, kNoiseM}).sigma_m;
   EXPECT_GT(later_m, 3 * fresh_m);
   EXPECT_LT(later_m, 0.04);
+}
+
+// Then the difference may be anything again that it might have been at first, at each depth.
+TEST(DepthRelation, InTheEndAllIsForgotten) {
+  DepthRelation relation;
+  relation.init(kMidM, {0.03, 0.02});
+  teach(20, &relation);
+  for (int i = 0; i < 30000; ++i) relation.nextFrame();
+  for (const double beyond_m : {-1.0, 0.0, 2.0})
+    EXPECT_NEAR(relation.asFirst({kMidM + beyond_m, kNoiseM}).sigma_m, std::hypot(kNoiseM, 0.03, 0.02 * beyond_m),
+                1e-6)
+        << beyond_m;
+}
+
+// Points of one surface share their errors.
+TEST(DepthRelation, ManyPointsOfAFrameAreNotAsManyWitnesses) {
+  DepthRelation relation;
+  relation.init(kMidM, {0.03, 0.03});
+  teach(1, &relation);
+  const double learnt_m = std::sqrt(std::pow(relation.asFirst({kMidM, kNoiseM}).sigma_m, 2) - kNoiseM * kNoiseM);
+  EXPECT_GT(learnt_m, 2 * std::sqrt(2) * kNoiseM / 10) << "of 100 points, each with the noise of both";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -122,6 +123,74 @@ TEST(Sparse, RegisteredImagesAreReadAtThePixel) {
     double sigma;
     ASSERT_TRUE(rig.lift({x, 100.2}, &point, &sigma));
     EXPECT_NEAR(Vector3(0.2, 0.1, 1).dot(point), 1.5, 0.004);
+  }
+}
+
+// Two cameras are one only with the same lens, at the same place, looking the same way.
+TEST(Sparse, CamerasThatDifferInOneThingAreTwo) {
+  const auto expectOnPlane = [](const SparseRig &rig) {
+    const Vector3 n(0.2, 0.1, 1);
+    for (double x = 60; x < 260; x += 13.7) {
+      Vector3 point;
+      double sigma;
+      ASSERT_TRUE(rig.lift({x, 100.2}, &point, &sigma)) << x;
+      EXPECT_NEAR(n.dot(rig.color_from_depth.inverse() * point), 1.5, 0.004) << x;
+    }
+  };
+  SparseRig lens, turned, moved;
+  for (SparseRig *rig : {&lens, &turned, &moved}) {
+    rig->color = rig->depth;
+    rig->color_from_depth = Rigid();
+    rig->measure(test::plane({0.2, 0.1, 1}, 1.5));
+  }
+  lens.color = Camera(test::pinhole(320, 288, 300));
+  turned.color_from_depth.rotation = rotationFromVector(Vector3(0, 0.08, 0));
+  moved.color_from_depth.translation_m = Vector3(0.15, 0, 0);
+  expectOnPlane(lens);
+  expectOnPlane(turned);
+  expectOnPlane(moved);
+}
+
+// Images may lie in larger ones: what is beside them is none of theirs, wherever a ray comes from.
+TEST(Sparse, WhatLiesBesideTheImageIsNotLookedAt) {
+  constexpr int kMargin = 80, kStride = 320 + 2 * kMargin;
+  SparseRig rig;
+  rig.measure(test::plane({0.2, 0.1, 1}, 2));
+  std::vector<uint16_t> near(size_t{kStride} * (288 + 2 * kMargin), 700), empty(near.size(), 0);
+  const auto viewIn = [&](std::vector<uint16_t> *larger) {
+    uint16_t *first = larger->data() + kMargin * kStride + kMargin;
+    for (int y = 0; y < 288; ++y) std::copy_n(rig.mm.begin() + y * 320, 320, first + y * kStride);
+    return ImageView<uint16_t>{first, 320, 288, kStride};
+  };
+  const ImageView<uint16_t> beside_near = viewIn(&near), beside_nothing = viewIn(&empty);
+  const Camera wide(test::pinhole(640, 480, 280));
+  for (const Vector3 &shift_m :
+       {Vector3(0.06, 0, 0), Vector3(-0.06, 0, 0), Vector3(0, 0.06, 0), Vector3(0, -0.06, 0)}) {
+    const SparseAligner aligner(wide, rig.depth, {Matrix3::Identity(), shift_m}, kSparseSensor);
+    int lifted = 0;
+    for (int y = 0; y < 480; y += 5)
+      for (int x = 0; x < 640; x += 5) {
+        Vector3 a = Vector3::Zero(), b = Vector3::Zero();
+        double sigma_a = 0, sigma_b = 0;
+        lifted += aligner.lift(beside_nothing, {x + 0.5, y + 0.5}, &a, &sigma_a);
+        aligner.lift(beside_near, {x + 0.5, y + 0.5}, &b, &sigma_b);
+        EXPECT_EQ(a, b) << shift_m.transpose() << ": " << x << " " << y;
+      }
+    EXPECT_GT(lifted, 4000);
+  }
+}
+
+// Along the colour ray an error of depth is longer where the depth camera looks another way.
+TEST(Sparse, SigmaIsOfTheColourCamerasDepth) {
+  SparseRig rig;
+  rig.color_from_depth = {rotationFromVector(Vector3(0, 0.4, 0)), Vector3(0, 0, 0)};
+  rig.measure(test::plane({0, 0, 1}, 2));
+  for (const double x : {400.0, 480.0, 560.0}) {
+    Vector3 point;
+    double sigma;
+    ASSERT_TRUE(rig.lift({x, 240}, &point, &sigma)) << x;
+    const double depth_of_1m = (rig.color_from_depth.inverse() * Vector3(point / point.z())).z();
+    EXPECT_NEAR(sigma, kSparseSensor.sigmaAt(2) / depth_of_1m, 1e-6) << x;
   }
 }
 
