@@ -169,6 +169,19 @@ TEST_F(MatcherTest, SameInPieces) {
   }
 }
 
+// Both may lie in a piece that is not the first.
+TEST_F(MatcherTest, NearDuplicatesFailTheRatioTestInPiecesToo) {
+  points_[kMap - 1].descriptor = points_[kMap - 2].descriptor;
+  const std::vector<Descriptor> queries = {jittered(points_[kMap - 1].descriptor, 3, &random_)};
+  const Parallel parallel = test::backwards(3);
+  Matcher cut;
+  const test::ArenaMemory memory(
+      [&](Arena &arena, bool real) { Matcher::layout(kQueries, arena, real ? &cut : nullptr, parallel); });
+  cut.setParallel(parallel);
+  cut.ask(view(), {queries.data(), queries.size()}, 8);
+  EXPECT_EQ(cut.matchExact(0.8f, {matches_.data(), kQueries}), 0u);
+}
+
 TEST_F(MatcherTest, NoQueries) { EXPECT_EQ(matchExact({}, 0.8f).size(), 0u); }
 
 TEST_F(MatcherTest, GuidedMatchesInsideTheConeAlone) {
@@ -298,6 +311,13 @@ TEST_F(IndexedMatcherTest, FewQueriesThenMoreIsAllAtOnce) {
   EXPECT_TRUE(same(at_once, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
 }
 
+TEST_F(IndexedMatcherTest, FewQueriesAfterAllAreThoseAlone) {
+  const auto few = all(view_, {queries_.data(), 17}, 0.9f, 8);
+  matcher_.ask(view_, queries(), 8);
+  matcher_.matchAll(kQueries, 0.9f, room());
+  EXPECT_TRUE(same(few, taken(matcher_.matchAll(17, 0.9f, room()))));
+}
+
 // Against the clock: time is the number of times it is read.
 class MatcherDeadline : public IndexedMatcherTest {
  protected:
@@ -356,8 +376,10 @@ TEST_F(MatcherDeadline, GuidedMatchingToo) {
   ASSERT_GT(whole.size(), kQueries / 2);
   bool cut = true;
   for (int64_t looks = 1; cut; ++looks) {
-    expectPartOf(whole, match(after(looks)));
+    const auto part = match(after(looks));
+    expectPartOf(whole, part);
     cut = matcher_.wasCut();
+    EXPECT_TRUE(cut || part.size() == whole.size()) << "it says that it answered all";
     ASSERT_LT(looks, 1000);
   }
 }
@@ -384,6 +406,22 @@ TEST_F(MatcherDeadline, WhatWasLeftOutIsFoundWhenThereIsTimeAgain) {
   EXPECT_TRUE(matcher_.wasCut());
   EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
   EXPECT_FALSE(matcher_.wasCut());
+}
+
+// Wherever the cut was, and whatever the cells of other queries were.
+TEST_F(MatcherDeadline, WhatWasNotRankedBeforeTheCutIsRanked) {
+  const auto whole = all(view_, queries(), 0.9f, 8);
+  const std::vector<Descriptor> others(queries_.rbegin(), queries_.rend());
+  bool cut = true;
+  for (int64_t looks = 1; cut; ++looks) {
+    matcher_.ask(view_, {others.data(), others.size()}, 8);
+    matcher_.matchAll(kQueries, 0.9f, room());
+    matcher_.ask(view_, queries(), 8);
+    matcher_.matchAll(kQueries, 0.9f, room(), after(looks));
+    cut = matcher_.wasCut();
+    EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room())))) << looks;
+    ASSERT_LT(looks, 1000);
+  }
 }
 
 // Guided matching that a deadline cut, and then again with time: the cells of what was answered are ranked already.
