@@ -49,8 +49,10 @@ TEST(Consistency, NamesARangeThatIsConstant) {
 TEST(Consistency, NamesDepthOutOfRange) {
   HeldConsistency held(false);
   MadeView view;
-  std::fill(view.depth().begin(), view.depth().end(), uint16_t{65535});
-  EXPECT_EQ(held.consistency.look(view.view()), kDepthRange);
+  for (const uint16_t far_or_near : {uint16_t{65535}, uint16_t{100}}) {
+    std::fill(view.depth().begin(), view.depth().end(), far_or_near);
+    EXPECT_EQ(held.consistency.look(view.view()), kDepthRange) << far_or_near;
+  }
 }
 
 TEST(Consistency, ABlindSensorIsNoContradiction) {
@@ -207,6 +209,30 @@ TEST(Consistency, NamesAStreamThatStandsStill) {
   }
   EXPECT_EQ(of_depth & kDepthFrozen, kDepthFrozen);
   EXPECT_EQ(of_color & kColorFrozen, kColorFrozen);
+}
+
+// Cameras that run freely give one image twice now and then.
+TEST(Consistency, AnImageThatComesTwiceIsNotFrozen) {
+  constexpr int64_t kThirtiethNs = 33000000;
+  for (const bool of_depth : {false, true}) {
+    HeldConsistency held(true);
+    Faults faults = 0;
+    for (int32_t i = 0; i < 4; ++i) {
+      const MadeView view = of_depth ? MadeView(25 * i, 0) : MadeView(0, 25 * i);
+      faults = held.consistency.look(view.view(i * kThirtiethNs)) & (kDepthFrozen | kColorFrozen);
+      EXPECT_EQ(faults != 0, i >= 2) << of_depth << " " << i;
+    }
+  }
+}
+
+TEST(Consistency, AfterAResetNothingStoodStill) {
+  for (const bool of_depth : {false, true}) {
+    HeldConsistency held(true);
+    held.consistency.look(MadeView().view(0));
+    held.consistency.reset();
+    const MadeView view = of_depth ? MadeView(25, 0) : MadeView(0, 25);
+    EXPECT_EQ(held.consistency.look(view.view(10 * kStepNs)) & (kDepthFrozen | kColorFrozen), Faults{0});
+  }
 }
 
 // The least time is one that nobody knew.

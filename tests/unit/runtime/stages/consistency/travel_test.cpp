@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kSigmaM = 0.003, kStepM = 0.0005;
 
-Travel walked(double scale, double length_m, int places, double step_m = kStepM) {
+Travel walked(double scale, double length_m, int places, double step_m = kStepM, double sigma_m = kSigmaM) {
   Travel travel;
   for (int i = 0; i < places; ++i) {
     const double at = length_m * i / places;
     const Vector3 odometry(at, 0.1 * at, 0.3 * at * at);
     const Vector3 map = scale * Vector3(-odometry.y(), odometry.x(), odometry.z()) + Vector3(1, 2, 3);
-    travel.add(map, odometry, kSigmaM, step_m * step_m);
+    travel.add(map, odometry, sigma_m, step_m * step_m);
   }
   return travel;
 }
@@ -70,6 +70,11 @@ TEST(Travel, ForgetsWhatLiesFarBack) {
   for (int i = 0; i < 64; ++i)
     travel.add(Vector3(0.03 * i, 0, 0), Vector3(0.03 * i, 0, 0), kSigmaM, kStepM * kStepM);
   EXPECT_FALSE(travel.isScaled());
+}
+
+TEST(Travel, VaguePosesTellNoScale) {
+  EXPECT_TRUE(walked(1.2, 0.6, 30, kStepM, 0.003).isScaled());
+  EXPECT_FALSE(walked(1.2, 0.6, 30, kStepM, 0.05).isScaled());
 }
 
 }  // namespace
