@@ -124,8 +124,10 @@ TEST(Doubt, ABiasFarOutsideItsPriorIsBeyondIt) {
   DepthCalibration learnt = prior;
   learnt.mean = {0.04, 0.02};  // 2 sigmas
   EXPECT_FALSE(isBeyondPrior(learnt, prior));
-  learnt.mean[1] = 0.03;
-  EXPECT_TRUE(isBeyondPrior(learnt, prior));
+  for (const Vector2 &far : {Vector2(0, 0.03), Vector2(0.06, 0), Vector2(-0.06, 0)}) {
+    learnt.mean = far;
+    EXPECT_TRUE(isBeyondPrior(learnt, prior)) << far.transpose();
+  }
   prior.covariance.setZero();
   EXPECT_FALSE(isBeyondPrior(learnt, prior)) << "of a sensor that is known nothing is learnt";
 }

@@ -200,5 +200,23 @@ TEST(Hints, ARivalMakesThePoseAmbiguous) {
   EXPECT_EQ(hintsOf(goodFrame(), best), 0u) << "with more time it might have been told apart";
 }
 
+TEST(ImageQuality, EdgesAreHiddenInTheDarkAndInTheLight) {
+  for (const int level : {0, 128, 255}) {
+    const std::vector<uint8_t> gray(size_t{kWidth} * kHeight, static_cast<uint8_t>(level));
+    EXPECT_EQ(hidesEdges({gray.data(), kWidth, kHeight, kWidth}), level != 128) << level;
+  }
+}
+
+// The same response is more where the blur has left less noise.
+TEST(Hints, ACoarserKeypointIsMoreSalient) {
+  Keypoint fine = {};
+  fine.response = 0.001f;
+  fine.scale_px = 1;
+  Keypoint coarse = fine;
+  coarse.scale_px = 4;
+  const Keypoint both[] = {fine, coarse};
+  EXPECT_EQ(countSalient({both, 2}, 1), 1u);
+}
+
 }  // namespace
 }  // namespace sphc

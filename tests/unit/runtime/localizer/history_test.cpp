@@ -102,5 +102,36 @@ TEST_F(HistoryTest, CountsFramesAndForgets) {
   EXPECT_EQ(history_.matches().size(), 0u);
 }
 
+TEST_F(HistoryTest, ErrorsOfOdometryAreErrorsOfThePoint) {
+  history_.add(pointAt(0, 2), 7, 0);
+  history_.advance(Rigid(), 0.003, 0.004);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  const LiftedPoint &later = history_.matches()[0].lifted;
+  EXPECT_NEAR(later.sideways_m, std::hypot(0.005, 0.003 * 2, 0.004), 1e-12);
+  EXPECT_NEAR(later.along_m, std::hypot(later.sideways_m, 0.02), 1e-12);
+}
+
+TEST_F(HistoryTest, AFurtherCameraStandsElsewhereNow) {
+  LiftedPoint seen = pointAt(0, 2);
+  seen.centre_m = {0.1f, 0, 0};
+  history_.add(seen, 7, 0);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  EXPECT_TRUE(history_.matches()[0].lifted.centre_m.isZero(0));
+}
+
+TEST_F(HistoryTest, TheOldestMakesRoomWhereverItLies) {
+  history_.add(pointAt(0, 1), 100, 0);
+  history_.add(pointAt(0, 1), 101, 0);
+  history_.advance(Rigid(), 1e-4, 1e-4);
+  history_.add(pointAt(0, 1), 100, 0);  // seen again
+  for (uint32_t i = 0; i + 1 < kCapacity; ++i) history_.add(pointAt(0, 1), i, 0);
+  bool has_100 = false;
+  for (const OldMatch &match : history_.matches()) {
+    EXPECT_NE(match.point_index, 101u);
+    has_100 = has_100 || match.point_index == 100;
+  }
+  EXPECT_TRUE(has_100);
+}
+
 }  // namespace
 }  // namespace sphc

@@ -45,6 +45,11 @@ TEST(Judgement, EvidenceFromTheSameMatchesCountsOnce) {
   EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), Outcome::kNoConsensus);
 }
 
+TEST(Judgement, WhereAPoseIsExpectedLessEvidenceIsEnough) {
+  EXPECT_EQ(judgePose({60, -8, -9, MatchSource::kExpected}, sureEstimate(60), 10), Outcome::kLocalized);
+  EXPECT_EQ(judgePose({60, 0, -8, MatchSource::kGlobal}, sureEstimate(60), 10), Outcome::kNoConsensus);
+}
+
 TEST(Judgement, WhatRestsOnFewMatchesIsUncertain) {
   Estimate estimate = sureEstimate(20);
   estimate.covariance.bottomRightCorner<3, 3>() = 0.01 * 0.01 * Matrix3::Identity();
@@ -166,6 +171,25 @@ TEST(Judgement, TheChanceThatAllAgreeIsThatOfEachButAMinimalSample) {
   EXPECT_NEAR(logChanceOfAgreement(span, Rigid(), kMatches, {1, kThreshold2, 4 * kPi}),
               (kMatches - kMinimalSample) * std::log(share), 1e-9);
   EXPECT_EQ(logChanceOfAgreement(span, Rigid(), kMinimalSample, {1, kThreshold2, 4 * kPi}), 0);
+}
+
+// Seen from the side, noise of depth makes the region larger in which a match agrees by chance.
+TEST(Judgement, NoisierDepthAgreesByChanceMoreOften) {
+  const std::vector<Correspondence> all(20, {{Vector3(0, 0, 2), 0.005, 0.02}, Vector3::UnitZ()});
+  const Span<const Correspondence> span = {all.data(), all.size()};
+  const Rigid beside = {Matrix3::Identity(), Vector3(2, 0, 0)};
+  const auto chance = [&](double noise_scale) {
+    return logChanceOfAgreement(span, beside, 20, {noise_scale, 9, 4 * kPi});
+  };
+  EXPECT_GT(chance(3), chance(1) + 10);
+}
+
+TEST(Judgement, MatchesWithoutDepthAreNoWitnesses) {
+  std::vector<Correspondence> all(20, {{Vector3(0, 0, 2), 0.005, 0.02}, Vector3::UnitZ()});
+  const auto chance = [&] { return logChanceOfAgreement({all.data(), all.size()}, Rigid(), 15, {1, 9, 4 * kPi}); };
+  const double of_lifted = chance();
+  all.resize(60, {{Vector3::UnitZ(), 0.005, std::numeric_limits<double>::infinity()}, Vector3::UnitZ()});
+  EXPECT_EQ(chance(), of_lifted);
 }
 
 }  // namespace

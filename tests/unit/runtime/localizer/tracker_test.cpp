@@ -275,6 +275,25 @@ TEST_F(VetoTest, APoseThatWasNotTrackedVetoesNothing) {
   EXPECT_FALSE(vetoes(0, 60)) << "it jumped, so nothing is known";
 }
 
+TEST_F(VetoTest, AfterAResetNothingIsVetoed) {
+  walk(4);
+  ASSERT_TRUE(vetoes(1, 60));
+  tracker_.reset();
+  go();
+  EXPECT_FALSE(vetoes(1, 60));
+}
+
+// Of images that nothing brings together the pose may be off by what the camera did meanwhile.
+TEST_F(VetoTest, PosesOfImagesThatAreApartVetoLess) {
+  for (int i = 0; i < 4; ++i) {
+    go();
+    tracker_.accept(0, poseHere(0, 100), kSure, false, 0.2);
+  }
+  go();
+  EXPECT_FALSE(vetoes(0.5, 60));
+  EXPECT_TRUE(vetoes(2, 60));
+}
+
 TEST_F(VetoTest, AMapThatIsGoneVetoesNothing) {
   walk(4);
   tracker_.forget(0);
@@ -410,6 +429,20 @@ TEST_F(TrackerTest, AShortStepSaysLittleOfALongOne) {
   EXPECT_NEAR(sigmaAfter(16000000), kPoseM * std::hypot(2.25, 1.25), 3e-4);
   EXPECT_NEAR(sigmaAfter(5000000), std::hypot(kHeadM, kPoseM), 3e-4);
   EXPECT_NEAR(sigmaAfter(100000), std::hypot(kHeadM, kPoseM), 3e-4);
+}
+
+TEST_F(TrackerTest, PosesFarApartInTimeTellNoVelocity) {
+  bring(kSecond, poseAt(0));
+  bring(kSecond + 3 * kSecond / 10, poseAt(0.03));
+  tracker_.advance(kSecond + 4 * kSecond / 10, nullptr);
+  Prediction expected;
+  ASSERT_TRUE(tracker_.predict(&expected));
+  EXPECT_EQ(expected.camera_from_map.translation_m[0], 0.03);
+}
+
+TEST_F(TrackerTest, ATurnAloneIsAJump) {
+  track();
+  EXPECT_EQ(bring(4 * kFrame, poseAt(0.04, 0.5)).events, kJumped);
 }
 
 TEST_F(TrackerTest, WithoutVelocityLessIsKnown) {
