@@ -255,6 +255,18 @@ TEST(Estimator, IterationsAreBoundedToABatch) {
   }
 }
 
+TEST(Estimator, AQueryMayAskForFewerSamples) {
+  test::TestEstimator estimator(300, 1000);
+  test::PoseWorldOptions options;
+  options.true_share = 0;
+  const test::PoseWorld world = test::makePoseWorld(options);
+  PoseQuery query;
+  for (const uint32_t most : {1u, 40u, 137u}) {
+    query.most_samples = most;
+    EXPECT_EQ(estimator.search(world, query).iterations, most);
+  }
+}
+
 TEST(Estimator, NoiseAloneIsNotLocalized) {
   test::TestEstimator estimator(400, 3000);
   for (uint64_t seed = 1; seed <= 100; ++seed) {

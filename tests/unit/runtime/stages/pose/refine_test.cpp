@@ -8,6 +8,7 @@
 #include "tests/support/pose_rows.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/sensor_world.h"
+#include "tests/support/stepping_clock.h"
 
 namespace sphc {
 namespace {
@@ -100,6 +101,25 @@ TEST(Refine, ImprovePoseComesNearInTwoSteps) {
     EXPECT_LT(test::translationErrorM(pose, p.world.camera_from_map),
               0.5 * test::translationErrorM(start, p.world.camera_from_map));
   }
+}
+
+// It stays with the pose that it has.
+TEST(Refine, AfterItsDeadlineItTakesNoStep) {
+  Random random(1);
+  RefineProblem p(exactWorld(1));
+  const Rigid start = disturbed(p.world.camera_from_map, 0.004, 0.008, &random);
+  test::SteppingClock clock(1000);
+  p.task.deadline = clock.deadline(0);
+  const Refinement refined = refinePose(p.task, start, 30);
+  EXPECT_EQ(refined.camera_from_map.translation_m, start.translation_m);
+  EXPECT_EQ(refined.camera_from_map.rotation, start.rotation);
+  EXPECT_GT((refined.information.topLeftCorner<6, 6>().diagonal().minCoeff()), 0)
+      << "and says how well it is known";
+}
+
+// A residual at the scale of the loss has half the weight in the cost, and a quarter of what it tells of the pose.
+TEST(Refine, WhatHardlyAgreesTellsLittle) {
+  EXPECT_NEAR(finalInformation(kFinalScale2) / finalInformation(0), 0.25, 1e-12);
 }
 
 TEST(Refine, LetsGoOfFakes) {
