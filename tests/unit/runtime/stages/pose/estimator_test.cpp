@@ -325,13 +325,15 @@ TEST(Estimator, InliersAreThoseOfItsOwnCount) {
   test::SensorWorldOptions options = sensorAt(0.33, 4);
   options.bias = {0.01, 0.02};
   const test::PoseWorld world = test::makeSensorWorld(options);
-  PoseQuery query = queryWithBias(1);
-  query.depth.mean = options.bias;
-  const Estimate estimate = estimator.search(world, query);
-  uint32_t agreeing = 0;
-  for (const Correspondence &c : world.correspondences) agreeing += estimator.get().isInlier(c, estimate);
-  EXPECT_NEAR(agreeing, estimate.inliers, 1);
-  EXPECT_GT(agreeing, 70u);
+  for (const Vector2 &known : {options.bias, Vector2(0, 0)}) {
+    PoseQuery query = queryWithBias(1);
+    query.depth.mean = known;
+    const Estimate estimate = estimator.search(world, query);
+    uint32_t agreeing = 0;
+    for (const Correspondence &c : world.correspondences) agreeing += estimator.get().isInlier(c, estimate);
+    EXPECT_NEAR(agreeing, estimate.inliers, 1) << known.transpose();
+    EXPECT_GT(agreeing, 70u);
+  }
 }
 
 }  // namespace
