@@ -15,7 +15,7 @@
 #   tsan_commands  the same on the commands that have threads
 #   coverage     lines and branches of the device's libraries and of the parsers that tests reach, against floors
 #   emulated     the runtime's unit tests on other machines, in emulators
-#   windows      the runtime for Windows, in Wine: the same bytes, and its unit tests
+#   windows      the runtime for Windows, in Wine: the same bytes, its unit tests, the binding for Rust
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
 #   bare_packages  the Debian packages, installed and used in such a Debian
 #
@@ -196,6 +196,7 @@ stage_emulated() {
 stage_windows() {
   prepare runtime portability windows
   check "windows: the same bytes" tests/portability/variants.sh windows
+  check "windows: the binding for Rust" tests/bindings/rust_on_windows.sh
   check "windows: build" build build/windows all --preset windows -DSPHC_TESTS=ON $unity -DSPHC_UNITY_RUNTIME=ON \
     -DSPHC_PRECOMPILE_RUNTIME=ON
   tests "windows: the runtime's unit tests" build/windows

@@ -29,7 +29,7 @@ fn main() {
 fn link_folder(folder: &Path, is_static: bool) -> Result<(), String> {
     let names: &[&str] = match is_static {
         true => &["libspherecloud.a", "spherecloud.lib"],
-        false => &["libspherecloud.so", "libspherecloud.dylib", "spherecloud.lib"],
+        false => &["libspherecloud.so", "libspherecloud.dylib", "libspherecloud.dll.a", "spherecloud.lib"],
     };
     if !names.iter().any(|name| folder.join(name).exists()) {
         return Err(format!("SPHERECLOUD_LIB_DIR is {}, which has no {}.", folder.display(), names[0]));

@@ -4,6 +4,8 @@ mod conventions;
 mod depth_cameras;
 mod features;
 mod golden;
+#[cfg(not(windows))] // whose variables of a thread ask for heap themselves
+mod heap;
 mod hooks;
 mod lifetimes;
 mod memory;
