@@ -26,7 +26,8 @@ double sigmaOf(const ColmapModel &model, const ColmapPoint &point, double metres
     const ColmapImage &image = model.images.at(o.image);
     const Vector3 in_camera = image.camera_from_model * point.position;
     const Vector3 view = image.camera_from_model.rotation.transpose() * in_camera.normalized();
-    const double across = kColmapPixelSigma * in_camera.norm() / Camera(model.cameras.at(image.camera)).focal();
+    const Camera camera(model.cameras.at(image.camera));
+    const double across = kColmapPixelSigma * camera.awayM(in_camera) / camera.focal();
     information += (Matrix3::Identity() - view * view.transpose()) / (across * across);
   }
   return metres_per_unit * std::sqrt(information.inverse().trace() / 3);

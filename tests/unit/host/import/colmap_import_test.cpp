@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -62,6 +64,32 @@ TEST_F(ColmapImport, MetresByAKnownScaleAndUpByTheCameras) {
     // About one pixel of 60 a radian, over a base of 0.2 m: a matter of decimetres, along the view.
     EXPECT_GT(point.sigma_m, 0.05);
     EXPECT_LT(point.sigma_m, 0.5);
+  }
+}
+
+// At the side of a pinhole camera's image a pixel is less of an angle, so the same places are known better.
+TEST_F(ColmapImport, APixelIsSoMuchOfAPointsSurroundingsAsItsDepthSays) {
+  options_.metres_per_unit = 1 / kUnitsPerMetre;
+  const PointModel straight = import();
+  const Matrix3 turn = Eigen::AngleAxisd(0.9, Vector3::UnitY()).toRotationMatrix();
+  ColmapModel model = tinyColmapModel(kUnitsPerMetre);
+  double least = 1, most = 0;  // of the depths' shares that are left after the turn
+  for (auto &[id, image] : model.images) {
+    const Rigid before = image.camera_from_model;
+    image.camera_from_model = {turn * before.rotation, turn * before.translation_m};
+    for (const auto &[number, point] : model.points) {
+      const double share = (image.camera_from_model * point.position).z() / (before * point.position).z();
+      least = std::min(least, share);
+      most = std::max(most, share);
+    }
+  }
+  ASSERT_LT(most, 0.9);
+  test::writeColmapFiles(folder_.path().string(), binaryFiles(model));
+  const PointModel turned = import();
+  ASSERT_EQ(turned.points.size(), straight.points.size());
+  for (size_t i = 0; i < turned.points.size(); ++i) {
+    EXPECT_GT(turned.points[i].sigma_m, least * straight.points[i].sigma_m);
+    EXPECT_LT(turned.points[i].sigma_m, most * straight.points[i].sigma_m);
   }
 }
 
