@@ -141,7 +141,7 @@ class CaptureChecks {
     return findings;
   }
   Findings ofPairs(uint64_t without_partner) const {
-    Findings findings = {pairsFinding(apart_ms_, without_partner)};
+    Findings findings = {pairsFinding(apart_ms_, {color_.count(), depth_.count(), without_partner})};
     if (!fit_) return findings;
     append(consistency_.findings(), &findings);
     findings.push_back(geometry_.finding());

@@ -15,6 +15,7 @@ namespace {
 using Grade = Finding::Grade;
 constexpr uint32_t kEvery = 7;                       // pixels looked at
 constexpr double kMostApartMs = 20;                  // of which walking makes 7 mm: as much as a good pose is off
+constexpr double kMostUnpaired = 0.1;                // of the rarer stream's images
 constexpr double kPauseMs = 500, kPausePeriods = 5;  // longer than both is a pause
 constexpr uint64_t kFnvStart = 0xCBF29CE484222325u, kFnvPrime = 0x100000001B3u;  // Fowler, Noll and Vo's hash
 
@@ -54,6 +55,15 @@ const TimeUnit *unitOfPeriod(double period_s) {
   for (const TimeUnit &unit : kTimeUnits)
     if (period_s * unit.seconds >= kFastest_s && period_s * unit.seconds <= kSlowest_s) return &unit;
   return nullptr;
+}
+
+// Of the stream with fewer images, those for which the other one had none.  All images of the other one that are
+// too many have no partner either, which is nothing amiss: cameras may have two rates.
+double unpairedShare(size_t pairs, const StreamCounts &counts) {
+  const uint64_t due = std::max<uint64_t>(counts.color, counts.depth);
+  const uint64_t found_or_not = pairs + counts.without_partner;
+  const uint64_t unpaired = found_or_not - std::min(found_or_not, due);
+  return static_cast<double>(unpaired) / static_cast<double>(pairs + unpaired);
 }
 
 }  // namespace
@@ -200,7 +210,7 @@ Finding StreamCheck::depths() const {
   return {share < 0.4 ? Grade::kDoubtful : Grade::kFine, "depth", seen};
 }
 
-Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t without_partner) {
+Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, const StreamCounts &counts) {
   if (color_minus_depth_ms.empty())
     return {
         Grade::kWrong, "pairs",
@@ -210,8 +220,8 @@ Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t w
   const double spread_ms = percentile(color_minus_depth_ms, 0.95) - percentile(color_minus_depth_ms, 0.05);
   const std::string seen = "of " + counted(color_minus_depth_ms.size(), "pair") + " colour is taken " +
                            fixed(std::fabs(median_ms), 1) + " ms " + (median_ms < 0 ? "before" : "after") +
-                           " depth, within " + fixed(spread_ms, 1) + " ms; " + counted(without_partner, "image") +
-                           " had no partner";
+                           " depth, within " + fixed(spread_ms, 1) + " ms; " +
+                           counted(counts.without_partner, "image") + " had no partner";
   if (spread_ms > 10)
     return {Grade::kDoubtful, "pairs",
             seen + "; the cameras drift apart: synchronise them, or expect blur from motion"};
@@ -220,6 +230,12 @@ Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t w
             seen +
                 "; the camera moves between them, so poses are less sure: give the localizer odometry, or "
                 "let one trigger start both"};
+  const double unpaired = unpairedShare(color_minus_depth_ms.size(), counts);
+  if (unpaired > kMostUnpaired)
+    return {Grade::kDoubtful, "pairs",
+            seen + ", so " + fixed(100 * unpaired, 0) +
+                " % of the rarer stream's images are of no use: trigger both cameras together, or stamp their "
+                "images by one clock"};
   return {Grade::kFine, "pairs", seen};
 }
 

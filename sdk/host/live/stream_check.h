@@ -18,6 +18,7 @@ class StreamCheck {
   // The times of the images that a recording has: one that is not looked at cannot be read.
   void expect(std::vector<int64_t> times_ns) { expected_ns_ = std::move(times_ns); }
   void look(const sphc_capture &capture);
+  uint32_t count() const { return count_; }  // of captures
   // Of this stream alone; nothing else is said where not one capture came.
   Findings findings() const;
 
@@ -42,7 +43,12 @@ class StreamCheck {
   std::vector<double> periods_ms_, brightness_, depths_m_, measured_share_;
 };
 
-// Of pairs: how far apart they were taken.
-Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t without_partner);
+// Captures of both streams.
+struct StreamCounts {
+  uint64_t color = 0, depth = 0;  // that came
+  uint64_t without_partner = 0;   // of both; what still waits is not counted
+};
+// Of pairs: how far apart they were taken, and whether the rarer stream's images found one.
+Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, const StreamCounts &counts);
 
 }  // namespace sphc::host

@@ -90,6 +90,18 @@ TEST_F(DoctorTest, PosesOfAnotherScaleThanDepthAreNamedByAdviseToo) {
     EXPECT_TRUE(failure.contains("yaw_deg") && failure.contains("pitch_deg")) << failure;
 }
 
+TEST_F(DoctorTest, ImagesWithoutAPartnerAreDoubtful) {
+  const std::string walk = copyOfWalk("unpaired");
+  int line = 0;
+  change(walk + "/depth.txt", [&line](double time_s, const std::string &file) {
+    std::ostringstream out;
+    out << std::fixed << time_s + (line++ % 3 == 2 ? 0.1 : 0) << ' ' << file;
+    return out.str();
+  });
+  EXPECT_THAT(doctor(walk).out, HasSubstr("look   pairs          of 8 pairs "));
+  EXPECT_THAT(doctor(at("walk")).out, HasSubstr("fine   pairs          of 12 pairs "));
+}
+
 TEST_F(DoctorTest, PixelsWithoutARayAreNamed) {
   const std::string walk = copyOfWalk("folded");
   auto calibration = nlohmann::json::parse(fileText(walk + "/calibration.json"));

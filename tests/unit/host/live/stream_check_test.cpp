@@ -163,14 +163,25 @@ TEST_F(StreamCheckTest, TimesThatAreNotTheMiddle) {
 }
 
 TEST(PairsFinding, TellsTheOffsetAndItsSpread) {
-  EXPECT_EQ(pairsFinding({}, 9).grade, Grade::kWrong);
-  const Finding steady = pairsFinding({-4, -4.1, -3.9, -4}, 1);
+  EXPECT_EQ(pairsFinding({}, {9, 0, 9}).grade, Grade::kWrong);
+  const Finding steady = pairsFinding({-4, -4.1, -3.9, -4}, {5, 4, 1});
   EXPECT_EQ(steady.grade, Grade::kFine);
   EXPECT_NE(steady.text.find("4.0 ms before"), std::string::npos) << steady.text;
-  EXPECT_EQ(pairsFinding({-15, 0, 15, 8}, 0).grade, Grade::kDoubtful);
-  const Finding apart = pairsFinding({33, 33.1, 32.9, 33}, 0);
+  EXPECT_EQ(pairsFinding({-15, 0, 15, 8}, {4, 4, 0}).grade, Grade::kDoubtful);
+  const Finding apart = pairsFinding({33, 33.1, 32.9, 33}, {4, 4, 0});
   EXPECT_EQ(apart.grade, Grade::kDoubtful);
   EXPECT_NE(apart.text.find("odometry"), std::string::npos) << apart.text;
+}
+
+TEST(PairsFinding, ManyImagesWithoutAPartnerAreDoubtful) {
+  const std::vector<double> steady(60, -4);
+  const Finding many = pairsFinding(steady, {80, 80, 40});
+  EXPECT_EQ(many.grade, Grade::kDoubtful);
+  EXPECT_NE(many.text.find("40 images had no partner, so 25 % of the rarer stream's images"), std::string::npos)
+      << many.text;
+  EXPECT_EQ(pairsFinding(steady, {62, 62, 4}).grade, Grade::kFine) << "two pairs are missing";
+  EXPECT_EQ(pairsFinding(steady, {360, 60, 300}).grade, Grade::kFine) << "a camera of six times the rate";
+  EXPECT_EQ(pairsFinding(steady, {68, 62, 0}).grade, Grade::kFine) << "they wait still";
 }
 
 }  // namespace
