@@ -16,13 +16,15 @@
 #include "host/base/private_file.h"
 #include "host/base/regular_file.h"
 #include "host/base/shell_word.h"
+#include "host/publish/ledger_checksum.h"
 #include "host/publish/sqlite_statement.h"
 #include "runtime/map/crc32.h"
 
 namespace sphc::host {
 namespace {
 
-constexpr int64_t kApplication = 0x53504C47, kFirstVersion = 1, kVersion = 3;  // "SPLG"
+constexpr int64_t kApplication = 0x53504C47, kFirstVersion = 1, kVersion = 4;  // "SPLG"
+constexpr int64_t kFirstWithChecksum = 4;
 
 const char kSchema[] = R"(
 CREATE TABLE owner (secret_key BLOB NOT NULL);
@@ -107,12 +109,13 @@ std::string orZero(const AddedColumn &column, int64_t version) {
 
 // Statements that bring a ledger of this version to the newest.
 std::string upgradeFrom(int64_t version) {
-  std::string statements = "BEGIN;";
+  std::string statements;
   for (const AddedColumn &column : {kBand, kFakeOption})
     if (version < column.version)
       statements +=
           std::string("ALTER TABLE place ADD COLUMN ") + column.name + " " + column.type + " NOT NULL DEFAULT 0;";
-  return statements + setVersion() + "COMMIT;";
+  if (version < kFirstWithChecksum) statements += kChecksumSchema;
+  return statements + setVersion();
 }
 
 // Tables alone, since a view can hold more rows than any file.
@@ -121,6 +124,13 @@ void checkContent(sqlite3 *database) {
   if (!check.step() || check.text(0) != "ok") throw std::runtime_error("it is damaged; take the backup");
   if (valueOf(database, "SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") != 0)
     throw std::runtime_error("this is not a ledger; give a ledger that spherecloud build made");
+}
+
+// An earlier ledger has none; in one that has it all the same the version is damaged.
+void checkChecksum(sqlite3 *database, int64_t version) {
+  const bool is_kept = version >= kFirstWithChecksum;
+  if (hasChecksum(database) != is_kept || (is_kept && !isAsChecksumSays(database)))
+    throw std::runtime_error("it is damaged: what it holds does not fit its checksum; take the backup");
 }
 
 bool isPacked(int64_t coordinate) { return coordinate >= 1 && coordinate <= 65535; }
@@ -233,10 +243,27 @@ void Ledger::run(const char *statement) {
 
 void Ledger::make(const SecretKey &key) {
   run(kSchema);
+  run(kChecksumSchema);
   SqliteStatement insert(database_.get(), "INSERT INTO owner VALUES (?)");
   insert.bind(key.data(), key.size()).run();
   run(("PRAGMA application_id = " + std::to_string(kApplication)).c_str());
   run(setVersion().c_str());
+  writeChecksum(database_.get());
+}
+
+// In one transaction with its checksum; an earlier ledger is brought to the newest version by it.
+void Ledger::change(const std::function<void()> &statements) {
+  run("BEGIN IMMEDIATE");
+  try {
+    const int64_t version = versionOf(database_.get());
+    if (version < kVersion) run(upgradeFrom(version).c_str());
+    statements();
+    writeChecksum(database_.get());
+  } catch (const SqliteFailure &failure) {
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    refuseByCode(path_, failure.what(), failure.code);
+  }
+  run("COMMIT");
 }
 
 bool Ledger::isEmpty() const {
@@ -256,6 +283,7 @@ void Ledger::read(const SecretKey *expected) {
     if (version < kFirstVersion || version > kVersion)
       throw std::runtime_error("it was written by another version of this program; use that one");
     checkContent(database_.get());
+    checkChecksum(database_.get(), version);
     SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
     if (!owner.step() || !owner.blob(0, key_.data(), key_.size()))
       throw std::runtime_error("it holds no key; take the backup");
@@ -272,8 +300,10 @@ void Ledger::read(const SecretKey *expected) {
 
 // Nothing was released with the old one: a build was killed before.
 void Ledger::takeKey(const SecretKey &key) {
-  SqliteStatement update(database_.get(), "UPDATE owner SET secret_key = ?");
-  update.bind(key.data(), key.size()).run();
+  change([this, &key] {
+    SqliteStatement update(database_.get(), "UPDATE owner SET secret_key = ?");
+    update.bind(key.data(), key.size()).run();
+  });
   key_ = key;
 }
 
@@ -289,8 +319,7 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
   }
   ledger.run("COMMIT");
   ledger.read(key);
-  const int64_t version = versionOf(ledger.database_.get());
-  if (version < kVersion) ledger.run(upgradeFrom(version).c_str());
+  if (versionOf(ledger.database_.get()) < kVersion) ledger.change([] {});
   return ledger;
 }
 
@@ -344,14 +373,7 @@ void Ledger::record(const Place &place) {
           path_,
           "a place's points must lie, and be known, within 1000 km of the world's origin; build the map of other "
           "poses");
-  run("BEGIN IMMEDIATE");
-  try {
-    writePlace(database_.get(), place);
-  } catch (const SqliteFailure &failure) {
-    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
-    refuseByCode(path_, failure.what(), failure.code);
-  }
-  run("COMMIT");
+  change([this, &place] { writePlace(database_.get(), place); });
   database_.get_deleter().unrecorded.clear();
 }
 

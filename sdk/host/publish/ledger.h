@@ -1,6 +1,7 @@
 // The owner's private record of everything that was released: one SQLite file, readable by its owner alone.
 // docs/release.md.
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ class Ledger {
   Ledger(const std::string &path, int flags);
   void run(const char *statement);
   void make(const SecretKey &key);
+  void change(const std::function<void()> &statements);
   bool isEmpty() const;
   void read(const SecretKey *expected);
   void takeKey(const SecretKey &key);

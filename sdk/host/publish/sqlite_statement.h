@@ -57,6 +57,8 @@ class SqliteStatement {
     bound_ = 0;
   }
 
+  int columns() { return sqlite3_column_count(get()); }
+  int type(int column) { return sqlite3_column_type(get(), column); }  // SQLITE_INTEGER and so on
   int64_t integer(int column) { return sqlite3_column_int64(get(), column); }
   double real(int column) { return sqlite3_column_double(get(), column); }
   std::string text(int column) {

@@ -21,7 +21,11 @@
 namespace sphc::host {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+
+// As it was before there was a checksum.
+const std::string kWithoutChecksum = "DROP TABLE checksum; PRAGMA user_version = 3;";
 
 class LedgerTest : public testing::Test {
  protected:
@@ -39,10 +43,11 @@ class LedgerTest : public testing::Test {
       return error.what();
     }
   }
-  void change(const char *statement) const {
+  void change(const std::string &statements) const {
     sqlite3 *database = nullptr;
     ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(database, statement, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+    EXPECT_EQ(sqlite3_exec(database, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
     sqlite3_close(database);
   }
 
@@ -150,7 +155,8 @@ TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
   Place place = makePlace(1, 20);
   Ledger::openOrMake(path_, nullptr).record(place);
   place.fake_option = 0;
-  change("ALTER TABLE place DROP COLUMN band; ALTER TABLE place DROP COLUMN fake_option; PRAGMA user_version = 1");
+  change(kWithoutChecksum +
+         "ALTER TABLE place DROP COLUMN band; ALTER TABLE place DROP COLUMN fake_option; PRAGMA user_version = 1");
   expectSame(Ledger::openToRead(path_).places().at(0), place);
   Place infrared = makePlace(2, 20);
   infrared.band = SPHC_BAND_INFRARED;
@@ -305,6 +311,7 @@ TEST_F(LedgerTest, ADatabaseOfSomebodyElseIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("not a ledger"));
 }
 
+// By its values, as it is in a ledger without a checksum.
 TEST_F(LedgerTest, DamageIsSeen) {
   for (const char *damage :
        {"UPDATE point SET descriptor = x'00' WHERE number = 3", "UPDATE point SET u = 0 WHERE number = 3",
@@ -312,18 +319,61 @@ TEST_F(LedgerTest, DamageIsSeen) {
         "UPDATE point SET sigma = -1 WHERE number = 3", "UPDATE place SET eta = 0", "UPDATE place SET number = 2",
         "UPDATE place SET centre_x = 1e7", "UPDATE release SET points = 100", "UPDATE release SET map_id = x''",
         "UPDATE place SET band = 2", "UPDATE place SET band = -1", "UPDATE place SET fake_option = -1",
-        "DELETE FROM owner", "PRAGMA user_version = 4", "CREATE VIEW v AS SELECT 1"}) {
+        "DELETE FROM owner", "PRAGMA user_version = 4", "PRAGMA user_version = 5", "CREATE VIEW v AS SELECT 1"}) {
     unlink(path_.c_str());
     Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
     EXPECT_EQ(refusal(), "accepted");
-    change(damage);
+    change(kWithoutChecksum + damage);
     EXPECT_NE(refusal(), "accepted") << damage;
   }
 }
 
-// Whatever the bytes are, there is an answer: places, or a message with the name and a cure.
+// Of values that would do for a ledger.
+TEST_F(LedgerTest, TheChecksumIsOverAllThatItHolds) {
+  for (const char *damage : {"UPDATE owner SET secret_key = zeroblob(length(secret_key))",
+                             "UPDATE place SET centre_x = centre_x + 1e-9",
+                             "UPDATE place SET eta = 0.5",
+                             "UPDATE place SET strategy = 'patchwork'",
+                             "UPDATE place SET band = 1",
+                             "UPDATE place SET fake_option = 0.3",
+                             "UPDATE release SET time_s = time_s + 1",
+                             "UPDATE release SET crc32 = 1",
+                             "UPDATE point SET x = x + 1e-12 WHERE number = 3",
+                             "UPDATE point SET sigma = 2 * sigma WHERE number = 3",
+                             "UPDATE point SET observations = observations + 1 WHERE number = 3",
+                             "UPDATE point SET descriptor = shown WHERE number = 3",
+                             "UPDATE point SET u = u % 65535 + 1 WHERE number = 3",
+                             "UPDATE point SET real = 1 - real WHERE number = 3",
+                             "UPDATE point SET release = 2 WHERE number = 3",
+                             "UPDATE point SET number = 21 WHERE number = 3",
+                             "DELETE FROM point; DELETE FROM release; DELETE FROM place",
+                             "UPDATE checksum SET crc32 = crc32 + 1",
+                             "DELETE FROM checksum",
+                             "PRAGMA user_version = 3"}) {
+    unlink(path_.c_str());
+    Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+    EXPECT_EQ(refusal(), "accepted");
+    change(damage);
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("it is damaged"), HasSubstr("take the backup"))) << damage;
+    EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error) << damage;
+  }
+}
+
+TEST_F(LedgerTest, AnOlderOneGetsAChecksumWithTheNextBuild) {
+  const Place place = makePlace(1, 20);
+  Ledger::openOrMake(path_, nullptr).record(place);
+  change(kWithoutChecksum);
+  expectSame(Ledger::openToRead(path_).places().at(0), place);
+  { const Ledger ledger = Ledger::openOrMake(path_, nullptr); }
+  expectSame(Ledger::openToRead(path_).places().at(0), place);
+  change("UPDATE point SET real = 1 - real");
+  EXPECT_THAT(refusal(), HasSubstr("does not fit its checksum; take the backup"));
+}
+
+// Whatever the bytes are, there is an answer: what was recorded, or a message with the name and a cure.
 TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
-  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+  const Place place = makePlace(1, 20);
+  Ledger::openOrMake(path_, nullptr).record(place);
   std::stringstream text;
   text << std::ifstream(path_, std::ios::binary).rdbuf();
   const std::string good = text.str();
@@ -336,7 +386,9 @@ TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
     if (round % 4 == 0) bad.resize(random.below(static_cast<uint32_t>(bad.size())));
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bad;
     try {
-      EXPECT_LE(Ledger::openToRead(path_).places().size(), 1u);
+      const std::vector<Place> places = Ledger::openToRead(path_).places();
+      ASSERT_EQ(places.size(), 1u);
+      expectSame(places[0], place);
     } catch (const std::runtime_error &error) {
       EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("ledger " + path_ + ": "), HasSubstr("; ")));
       const std::string words = error.what();
