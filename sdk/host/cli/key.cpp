@@ -1,7 +1,9 @@
 // spherecloud key: keys with which maps are signed, or encrypted.
 #include <cstdio>
 #include <memory>
+#include <string>
 
+#include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -12,6 +14,12 @@ namespace sphc::host {
 namespace {
 
 constexpr char kSignatures[] = "signatures", kEncryption[] = "encryption";
+
+struct KeyOptions {
+  std::string out, secret, purpose = kSignatures;
+};
+
+std::string publicPath(const std::string &secret_path) { return secret_path + ".pub"; }
 
 // As sphc_signature_key is initialised in C.
 std::string inC(const sphc_signature_key &key) {
@@ -25,19 +33,36 @@ std::string inC(const sphc_signature_key &key) {
   return text + "}";
 }
 
+// Of a key whose files are there.
+void sayPublicKey(const SigningKey &key, const std::string &public_path, const Console &console) {
+  console.say("Wrote " + public_path + ": the public key, id " + keyIdText(key.publicKey()) + ". For firmware:");
+  console.say("static const sphc_signature_key key = " + inC(key.publicKey()) + ";");
+}
+
 int makeSigningKey(const std::string &path, const Console &console) {
-  const std::string public_path = path + ".pub";
+  const std::string public_path = publicPath(path);
   FileUse files(false);  // a key that is lost is lost for ever: nothing is replaced
   files.writesNew("--out", path);
   files.writesNew("--out", public_path);
   files.check();
   const SigningKey key = SigningKey::draw();
   key.write(path, public_path);
-  const std::string id = keyIdText(key.publicKey());
   console.say("Wrote " + path + ": the secret key. Keep it off every device, back it up, show it to nobody.");
-  console.say("Wrote " + public_path + ": the public key, id " + id + ". For firmware:");
-  console.say("static const sphc_signature_key key = " + inC(key.publicKey()) + ";");
-  console.give({{"secret_key", path}, {"public_key", public_path}, {"key_id", id}});
+  sayPublicKey(key, public_path, console);
+  console.give({{"secret_key", path}, {"public_key", public_path}, {"key_id", keyIdText(key.publicKey())}});
+  return kExitDone;
+}
+
+int writePublicKey(const std::string &secret_path, const Console &console) {
+  const std::string public_path = publicPath(secret_path);
+  FileUse files(false);
+  files.reads("--public-of", secret_path);
+  files.writesNew("--public-of", public_path);
+  files.check();
+  const SigningKey key = SigningKey::read(secret_path);
+  key.writePublic(public_path);
+  sayPublicKey(key, public_path, console);
+  console.give({{"public_key", public_path}, {"key_id", keyIdText(key.publicKey())}});
   return kExitDone;
 }
 
@@ -53,10 +78,17 @@ int makeEncryptionKey(const std::string &path, const Console &console) {
   return kExitDone;
 }
 
+int run(const KeyOptions &options, const Console &console) {
+  if (!options.secret.empty()) return writePublicKey(options.secret, console);
+  if (options.out.empty()) throw UsageError("--out or --public-of is required");
+  return options.purpose == kEncryption ? makeEncryptionKey(options.out, console)
+                                        : makeSigningKey(options.out, console);
+}
+
 }  // namespace
 
 Command keyCommand(CLI::App *root) {
-  auto path = std::make_shared<std::string>(), purpose = std::make_shared<std::string>(kSignatures);
+  auto options = std::make_shared<KeyOptions>();
   CLI::App *app = root->add_subcommand("key");
   app->description(
       "Make keys that sign maps, or encrypt them.\n\nFor signatures, a pair of Ed25519: whoever has the secret "
@@ -68,16 +100,19 @@ Command keyCommand(CLI::App *root) {
       "Example:\n  spherecloud key --out maps.key\nWhat comes out:\n"
       "  maps.key        the secret key, readable by you alone: keep it, back it up, never ship it\n"
       "  maps.key.pub    the public key: for --trusted-key, and as a line of C for firmware\n"
-      "With --for encryption: the secret key alone, for spherecloud encrypt and decrypt.");
-  app->add_option("--out", *path, "File for the secret key; the public one is FILE.pub")
-      ->required()
+      "With --for encryption: the secret key alone, for spherecloud encrypt and decrypt.\n"
+      "Where the public file was lost: spherecloud key --public-of maps.key");
+  CLI::Option *out = app->add_option("--out", options->out, "File for the secret key; the public one is FILE.pub")
+                         ->type_name("FILE");
+  CLI::Option *use =
+      app->add_option("--for", options->purpose, "What the key is for: signatures or encryption [signatures]")
+          ->check(CLI::IsMember({kSignatures, kEncryption}))
+          ->type_name("USE");
+  app->add_option("--public-of", options->secret, "Write FILE.pub anew, of a secret key that signs maps")
+      ->excludes(out)
+      ->excludes(use)
       ->type_name("FILE");
-  app->add_option("--for", *purpose, "What the key is for: signatures or encryption [signatures]")
-      ->check(CLI::IsMember({kSignatures, kEncryption}))
-      ->type_name("USE");
-  return {app, [path, purpose](const Console &console) {
-            return *purpose == kEncryption ? makeEncryptionKey(*path, console) : makeSigningKey(*path, console);
-          }};
+  return {app, [options](const Console &console) { return run(*options, console); }};
 }
 
 }  // namespace sphc::host

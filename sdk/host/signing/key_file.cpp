@@ -61,12 +61,16 @@ std::array<uint8_t, 64> SigningKey::sign(const uint8_t *bytes, size_t count) con
 void SigningKey::write(const std::string &path, const std::string &public_path) const {
   writeKeyText(path, kSecretSigningHead, secret_.data(), Readers::kOwner);
   try {
-    writeKeyText(public_path, kPublicSigningHead, public_key_.bytes, Readers::kAll);
-  } catch (...) {  // no command makes the public key of a secret one
+    writePublic(public_path);
+  } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
     throw;
   }
+}
+
+void SigningKey::writePublic(const std::string &public_path) const {
+  writeKeyText(public_path, kPublicSigningHead, public_key_.bytes, Readers::kAll);
 }
 
 sphc_signature_key readPublicKey(const std::string &path) {

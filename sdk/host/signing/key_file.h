@@ -30,6 +30,8 @@ class SigningKey {
   std::array<uint8_t, 64> sign(const uint8_t *bytes, size_t count) const;
   // The file with mode 0600, and the public key's beside it: both or none.  Throws as writeNewFile does.
   void write(const std::string &path, const std::string &public_path) const;
+  // The public key's file alone, as one that was lost.  Throws as writeNewFile does.
+  void writePublic(const std::string &public_path) const;
 
  private:
   std::array<uint8_t, 64> secret_;  // as libsodium has it: the seed, then the public key

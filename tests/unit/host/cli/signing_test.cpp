@@ -179,6 +179,36 @@ TEST_F(SigningTest, ASecretKeyIsItsOwnersAndNeverReplacedOrTold) {
   }
 }
 
+TEST_F(SigningTest, ALostPublicKeyIsWrittenAnew) {
+  const auto textOf = [](const std::string &path) {
+    std::ifstream in(path);
+    return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  };
+  const std::string lost = textOf(key_ + ".pub"), anew = "key --public-of " + key_;
+  EXPECT_THAT(runCommand(anew).err, HasSubstr("maps.key.pub")) << "one that is there is not replaced";
+  fs::remove(key_ + ".pub");
+  const Answer answer = runCommand(anew + " --json");
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_EQ(nlohmann::json::parse(answer.out)["public_key"], key_ + ".pub");
+  EXPECT_EQ(textOf(key_ + ".pub"), lost);
+  EXPECT_EQ(verify().exit_code, kExitDone);
+}
+
+TEST_F(SigningTest, APublicKeyIsOfASecretOneAlone) {
+  const std::string encrypting = folder_ / "rooms.key";
+  ASSERT_EQ(runCommand("key --for encryption --out " + encrypting).exit_code, kExitDone);
+  for (const std::string &file : {key_ + ".pub", encrypting, folder_ / "absent"}) {
+    const Answer answer = runCommand("key --public-of " + file);
+    EXPECT_EQ(answer.exit_code, kExitFailure) << file;
+    EXPECT_THAT(answer.err, HasSubstr("spherecloud key wrote")) << file;
+    EXPECT_FALSE(fs::exists(file + ".pub")) << file;
+  }
+  const Answer nothing = runCommand("key");
+  EXPECT_EQ(nothing.exit_code, kExitUsage);
+  EXPECT_THAT(nothing.err, HasSubstr("--out or --public-of is required"));
+  EXPECT_EQ(runCommand("key --out " + (folder_ / "new.key") + " --public-of " + key_).exit_code, kExitUsage);
+}
+
 TEST_F(SigningTest, AReleaseAloneIsNoTrust) {
   EXPECT_EQ(runCommand("inspect " + map_ + " --no-picture --least-release 3").exit_code, kExitUsage);
 }
