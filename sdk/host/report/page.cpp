@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/base/listed.h"
 #include "host/report/encode.h"
 #include "host/report/page_style.h"
 #include "host/report/table.h"
@@ -224,6 +225,12 @@ std::string mapSection(const Run &run, const PageContent &content) {
          "</div></div>";
 }
 
+std::string nameOfMaps(const Run &run) {
+  std::vector<std::string> paths;
+  for (const MapFacts &map : run.maps) paths.push_back(map.path);
+  return (paths.size() > 1 ? "the sphere clouds " : "the sphere cloud ") + listed(paths);
+}
+
 std::string plotSection(const PageContent &content) {
   std::string body;
   if (!content.plot_problem.empty()) body += "<p class='warn'>" + escapeHtml(content.plot_problem) + "</p>";
@@ -237,10 +244,8 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
       "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width,initial-scale=1'>" +
       std::string(kReportHead) + "<style>" + kPageStyle + "</style></head>\n<body>\n";
-  html += "<header><div><h1>Where was the camera?</h1><p>" + escapeHtml(run.recording) + " in the sphere cloud " +
-          escapeHtml(run.maps.front().path) +
-          (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +
-          "</p></div></header>\n<main>\n";
+  html += "<header><div><h1>Where was the camera?</h1><p>" + escapeHtml(run.recording) + " in " +
+          escapeHtml(nameOfMaps(run)) + "</p></div></header>\n<main>\n";
   html += cards(run, s) + warningOf(s) + truthNotes(run, s);
   html += section("What you are looking at", howToRead(run, s));
   html += section("In pictures", plotSection(content));

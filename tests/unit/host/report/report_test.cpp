@@ -256,9 +256,13 @@ TEST_F(ReportTest, LeavesNoPlotOfAnEarlierRun) {
 }
 
 TEST_F(ReportTest, NamesSeveralMapsAsTheyAreCalled) {
+  run_.maps[0].path = "room.sphc";
+  EXPECT_THAT(write(), HasSubstr("<p>walk &lt;one&gt; in the sphere cloud room.sphc</p>"));
   run_.maps.push_back(run_.maps[0]);
   run_.maps[1].path = "kitchen & <hall>.sphc";
-  EXPECT_THAT(write(), HasSubstr("<td class='value'>kitchen &amp; &lt;hall&gt;.sphc</td>"));
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("<td class='value'>kitchen &amp; &lt;hall&gt;.sphc</td>"));
+  EXPECT_THAT(page, HasSubstr(" in the sphere clouds room.sphc, kitchen &amp; &lt;hall&gt;.sphc</p>"));
 }
 
 // Killed then, it would leave pictures, and no page to know them by.
