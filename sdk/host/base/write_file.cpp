@@ -124,10 +124,13 @@ void writeFile(const std::string &path, const std::string &text, Readers readers
   writeFile(path, text.data(), text.size(), readers);
 }
 
+void bringToDisk(const std::string &path) {
+  const bool is_folder = fs::is_directory(path);
+  OpenFile file(path, O_RDONLY, 0);
+  if (!file.isOpen() || !(is_folder ? file.syncAll() : file.sync())) fail(path);
+}
+
 void renameToNew(const std::string &from, const std::string &to) {
-  const bool is_folder = fs::is_directory(from);
-  OpenFile file(from, O_RDONLY, 0);
-  if (!file.isOpen() || !(is_folder ? file.syncAll() : file.sync())) fail(from);
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) != 0) {
     // Some file systems cannot refuse by themselves.
     if (errno == EINVAL && !fs::exists(to) && std::rename(from.c_str(), to.c_str()) == 0) return syncFolderOf(to);

@@ -21,8 +21,9 @@ void writeFile(const std::string &path, const std::string &text, Readers readers
 // As writeFile, unless something has the name already, though it came by it at the last moment.
 void writeNewFile(const std::string &path, const std::string &text, Readers readers = Readers::kAll);
 
-// Brings a file, or a folder and all in it, to the disk and gives it its name, unless something has that name
-// already. Throws std::runtime_error with cause and cure, and then `from` stays.
+// A file, or a folder and all in it.  Throws std::runtime_error with cause and cure.
+void bringToDisk(const std::string &path);
+// Of what is on the disk, unless something has the name already.  Throws as above, and then `from` stays.
 void renameToNew(const std::string &from, const std::string &to);
 
 }  // namespace sphc::host

@@ -57,6 +57,8 @@ void NewRecording::isMade() {
 }
 
 void NewRecording::finish() {
+  bringToDisk(part_);
+  keepIfCut();  // it is whole, though another may have taken its name meanwhile
   std::error_code none;
   if (fs::is_directory(part_)) fs::remove(path_, none);  // a folder that is there is empty, or stays
   renameToNew(part_, withoutSlash(path_));
