@@ -1,5 +1,6 @@
 // spherecloud localize: where was the camera, frame by frame?
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/trust_options.h"
 #include "host/cli/localizer_options.h"
+#include "host/evaluate/kept_observations.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/frames/recording.h"
@@ -90,7 +92,8 @@ void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader
   console.warn("note: none of " + counted(poses, "pose") + ofOtherTimes(reader, reader.recording().poses));
 }
 
-Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {
+Run localize(const LocalizeOptions &options, RecordingReader *reader, KeptObservations *observations,
+             const Console &console) {
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
@@ -105,7 +108,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.play_odometry = options.odometry;
   input.config = options.localizer.config;
   input.parameters = options.localizer.parameters;
-  input.keep_observations = !options.report.empty();
+  input.observations = observations;
   setCameras(reader->calibration(), &input.config);
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config, input.parameters);
@@ -125,9 +128,18 @@ cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
   return image ? bgrFromImage(image->color) : cv::Mat();
 }
 
+std::string writeReportOf(const std::string &folder, Run *run, RecordingReader *reader,
+                          KeptObservations *observations, const Console &console) {
+  for (const Highlight &shown : chooseHighlights(*run))
+    run->frames[shown.frame].observations = observations->of(shown.frame);
+  const ReportSummary report =
+      writeReport(folder, *run, [reader](const FrameRecord &frame) { return imageOf(reader, frame); });
+  if (!report.problem.empty()) console.warn("note: " + report.problem);
+  return "Report with pictures: " + report.page;
+}
+
 // Gives a line to be said of each.
-std::vector<std::string> writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReader *reader,
-                                      const Console &console) {
+std::vector<std::string> writeOutputs(const LocalizeOptions &options, const Run &run) {
   std::vector<std::string> told;
   if (!options.trajectory.empty()) {
     writeFile(options.trajectory, tumTrajectory(run));
@@ -137,11 +149,6 @@ std::vector<std::string> writeOutputs(const LocalizeOptions &options, const Run 
     writeFile(options.frames_json, framesJsonLines(run));
     told.push_back("A JSON line a frame: " + options.frames_json);
   }
-  if (options.report.empty()) return told;
-  const ReportSummary report =
-      writeReport(options.report, run, [reader](const FrameRecord &frame) { return imageOf(reader, frame); });
-  if (!report.problem.empty()) console.warn("note: " + report.problem);
-  told.push_back("Report with pictures: " + report.page);
   return told;
 }
 
@@ -188,10 +195,13 @@ int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
-  Run done = localize(options, reader.get(), console);
+  std::optional<KeptObservations> observations;
+  if (!options.report.empty()) observations.emplace();
+  Run done = localize(options, reader.get(), observations ? &*observations : nullptr, console);
   if (options.align) align(console, &done);
   const Summary summary = summarize(done);
-  const auto told = writeOutputs(options, done, reader.get(), console);  // before words, whose reader may be gone
+  auto told = writeOutputs(options, done);  // before words, whose reader may be gone
+  if (observations) told.push_back(writeReportOf(options.report, &done, reader.get(), &*observations, console));
   console.say(tableText(tableRows(done, summary)));
   for (const std::string &line : told) console.say(line);
   console.give(summaryJson(done, summary));

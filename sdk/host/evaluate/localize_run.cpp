@@ -136,10 +136,9 @@ FrameRecord processFrame(const LocalizeInput &input, const sphc_localizer_frame 
   frame.total_us = static_cast<uint32_t>((end - start) / 1000);
   fillAnswer(input, result, &frame);
   fillTruth(input, &frame);
-  if (input.keep_observations) {
+  if (input.observations) {
     const uint32_t count = localizer->observations(room->data(), static_cast<uint32_t>(room->size()));
-    frame.observations.assign(
-        room->begin(), room->begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(room->size())));
+    input.observations->add(room->data(), std::min<size_t>(count, room->size()));
   }
   return frame;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/evaluate/kept_observations.h"
 #include "host/evaluate/map_file.h"
 #include "host/evaluate/parameters.h"
 #include "host/recording/recording_reader.h"
@@ -23,9 +24,9 @@ struct LocalizeInput {
   Parameters parameters;
   // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.
   std::vector<std::array<double, 3>> centres_in_world_m;
-  uint32_t deadline_us = 0;    // of each frame; 0: none
-  bool play_odometry = false;  // the recording's own poses, each step disturbed
-  bool keep_observations = false;
+  uint32_t deadline_us = 0;                  // of each frame; 0: none
+  bool play_odometry = false;                // the recording's own poses, each step disturbed
+  KeptObservations *observations = nullptr;  // where those of run->frames go; null: they are not wanted
 };
 
 // Rig and clock into a config whose other fields stay.

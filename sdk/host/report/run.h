@@ -41,7 +41,7 @@ struct FrameRecord {
   sphc_rigid truth_base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
   double rotation_error_deg = 0, translation_error_m = 0;  // when localized with truth
 
-  std::vector<sphc_localizer_observation> observations;  // kept only when pictures are wanted
+  std::vector<sphc_localizer_observation> observations;  // of those alone that a picture shows
 };
 
 // A frame that could not be decoded.
