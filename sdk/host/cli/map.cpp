@@ -11,6 +11,8 @@
 #include "host/cli/common/contradictions.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/map_recordings.h"
+#include "host/cli/map_report.h"
+#include "host/cli/map_warnings.h"
 #include "host/import/model_file.h"
 #include "host/mapping/solver_memory.h"
 #include "host/recording/calibration_json.h"

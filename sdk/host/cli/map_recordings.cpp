@@ -8,6 +8,7 @@
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/common/progress.h"
+#include "host/cli/map_warnings.h"
 #include "host/import/upright.h"
 #include "host/mapping/told_pieces.h"
 #include "host/recording/calibration_json.h"

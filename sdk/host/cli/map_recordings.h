@@ -1,7 +1,8 @@
 // From recordings to where their frames were taken from, and the points that they saw, for `spherecloud map`.
 #pragma once
+#include "host/cli/common/console.h"
 #include "host/cli/map_options.h"
-#include "host/cli/map_report.h"
+#include "host/cli/map_outcome.h"
 #include "host/mapping/calibration_fit.h"
 
 namespace sphc::host {
