@@ -37,6 +37,28 @@ TEST(CInterfaceCamera, ProjectAndBack) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(bearing[i], point[i] / norm, 1e-12);
 }
 
+// Without distortion: what is so far off the axis has no pixel all the same.
+TEST(CInterfaceCamera, BeyondItsFieldOfViewACameraHasNoPixels) {
+  struct Field {
+    sphc_camera_model model;
+    uint32_t param_count;
+    double widest_deg;
+  };
+  for (const Field &field : {Field{SPHC_CAMERA_PINHOLE, 4, 89}, Field{SPHC_CAMERA_KANNALA_BRANDT4, 8, 89},
+                             Field{SPHC_CAMERA_BROWN5, 9, 83}, Field{SPHC_CAMERA_BROWN8, 12, 83}}) {
+    sphc_camera camera = sphc::test::pinhole(640, 480, 500);
+    camera.model = field.model;
+    camera.param_count = field.param_count;
+    for (const double off_deg : {-0.3, 0.3}) {
+      const double angle_rad = (field.widest_deg + off_deg) * M_PI / 180;
+      const double point[3] = {std::sin(angle_rad), 0, std::cos(angle_rad)};
+      double pixel[2];
+      EXPECT_EQ(sphc_camera_project(&camera, point, pixel), off_deg < 0 ? SPHC_OK : SPHC_OUTSIDE)
+          << field.model << " at " << field.widest_deg + off_deg << " degrees";
+    }
+  }
+}
+
 // Their sum is not finite, and each of them is.
 TEST(CInterfaceCamera, NumbersMayBeAsLargeAsThereAre) {
   const sphc_camera camera = sphc::test::pinhole(640, 480, 500);

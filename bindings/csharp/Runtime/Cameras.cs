@@ -52,8 +52,9 @@ public unsafe struct CameraIntrinsics {
     SpherecloudException.Check(Native.sphc_camera_check(&camera, &message), ref message);
   }
 
-  /// <summary>Finds the pixel of a point in camera coordinates. False where the point is not in front of the camera, or
-  /// lies where the distortion cannot be inverted, or the camera cannot be used. Any thread.</summary>
+  /// <summary>Finds the pixel of a point in camera coordinates. False where the point is not in front of the camera,
+  /// lies more than about 89 degrees off the axis (83 for the Brown models) or where the distortion cannot be inverted,
+  /// or the camera cannot be used. Any thread.</summary>
   public bool TryProject(Vector3d pointM, out Vector2d pixelPx) {
     Library.Require();
     CameraIntrinsics camera = this;

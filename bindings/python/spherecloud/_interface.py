@@ -864,13 +864,13 @@ class Interface:
         # and cure. [pure]
         self.sphc_camera_check = bound("sphc_camera_check", ctypes.c_int32, [
             ctypes.POINTER(sphc_camera), ctypes.POINTER(sphc_message)])
-        # Pixel of a point given in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of
-        # the camera or lies beyond the range in which the distortion is invertible. SPHC_E_ARGUMENT: null, not
-        # finite, or a camera that sphc_camera_check refuses. [pure]
+        # Pixel of a point in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the
+        # camera, is more than about 89 degrees off its axis (83 for the Brown models), or lies where the distortion
+        # is not invertible. SPHC_E_ARGUMENT: null, not finite, or a camera that sphc_camera_check refuses. [pure]
         self.sphc_camera_project = bound("sphc_camera_project", ctypes.c_int32, [
             ctypes.POINTER(sphc_camera), ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double)])
-        # Unit bearing (camera coordinates) of a pixel. SPHC_OUTSIDE, *bearing untouched, if no bearing projects
-        # there. SPHC_E_ARGUMENT: as above. [pure]
+        # Unit bearing (camera coordinates) of a pixel. SPHC_OUTSIDE, *bearing untouched, if no bearing within that
+        # angle projects there. SPHC_E_ARGUMENT: as above. [pure]
         self.sphc_camera_unproject = bound("sphc_camera_unproject", ctypes.c_int32, [
             ctypes.POINTER(sphc_camera), ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double)])
         # Identity and millimetres; the cameras stay zero and must be set. Does nothing for null. [pure]

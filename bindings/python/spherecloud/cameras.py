@@ -51,8 +51,8 @@ class Camera:
     def project(self, points_m: npt.ArrayLike) -> Floats:
         """Pixels (..., 2) of points (..., 3) in camera coordinates.
 
-        A point that is not in front of the camera, or beyond its distortion, is an Error(OUTSIDE) where it is the only
-        one, and NaN among several.  Error(E_ARGUMENT): the camera fails its check, or a number is not finite.
+        A point that is not in front of the camera, more than about 89 degrees off the axis (83 for the Brown models) or
+        beyond its distortion is an Error(OUTSIDE) where it is the only one, and NaN among several.  Error(E_ARGUMENT): the camera fails its check, or a number is not finite.
         """
         return self._each(points_m, 3, 2, interface().sphc_camera_project, "the camera does not see this point")
 

@@ -274,12 +274,12 @@ typedef struct sphc_memory {
  * fy > 0, and 0 in what the model does not use.  Else SPHC_E_ARGUMENT; the message names field, cause and cure.
  * [pure] */
 SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
-/* Pixel of a point given in camera coordinates.  SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the
- * camera or lies beyond the range in which the distortion is invertible.  SPHC_E_ARGUMENT: null, not finite, or a
- * camera that sphc_camera_check refuses. [pure] */
+/* Pixel of a point in camera coordinates.  SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the camera,
+ * is more than about 89 degrees off its axis (83 for the Brown models), or lies where the distortion is not
+ * invertible.  SPHC_E_ARGUMENT: null, not finite, or a camera that sphc_camera_check refuses. [pure] */
 SPHC_API sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]);
-/* Unit bearing (camera coordinates) of a pixel.  SPHC_OUTSIDE, *bearing untouched, if no bearing projects there.
- * SPHC_E_ARGUMENT: as above. [pure] */
+/* Unit bearing (camera coordinates) of a pixel.  SPHC_OUTSIDE, *bearing untouched, if no bearing within that
+ * angle projects there.  SPHC_E_ARGUMENT: as above. [pure] */
 SPHC_API sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]);
 
 /* Identity and millimetres; the cameras stay zero and must be set.  Does nothing for null. [pure] */

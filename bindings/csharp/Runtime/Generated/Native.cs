@@ -272,14 +272,15 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_camera_check(CameraIntrinsics* camera, sphc_message* message);
 
-  /// <summary>[pure] Pixel of a point given in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not
-  /// in front of the camera or lies beyond the range in which the distortion is invertible. SPHC_E_ARGUMENT: null,
-  /// not finite, or a camera that sphc_camera_check refuses.</summary>
+  /// <summary>[pure] Pixel of a point in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not in
+  /// front of the camera, is more than about 89 degrees off its axis (83 for the Brown models), or lies where the
+  /// distortion is not invertible. SPHC_E_ARGUMENT: null, not finite, or a camera that sphc_camera_check
+  /// refuses.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_camera_project(CameraIntrinsics* camera, double* point_m, double* pixel_px);
 
   /// <summary>[pure] Unit bearing (camera coordinates) of a pixel. SPHC_OUTSIDE, *bearing untouched, if no bearing
-  /// projects there. SPHC_E_ARGUMENT: as above.</summary>
+  /// within that angle projects there. SPHC_E_ARGUMENT: as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_camera_unproject(CameraIntrinsics* camera, double* pixel_px, double* bearing);
 

@@ -985,13 +985,14 @@ extern "C" {
     /// names field, cause and cure. Thread class: pure.
     pub fn sphc_camera_check(camera: *const sphc_camera, message: *mut sphc_message) -> sphc_status;
 
-    /// Pixel of a point given in camera coordinates. SPHC_OUTSIDE, \*pixel_px untouched, if it is not in
-    /// front of the camera or lies beyond the range in which the distortion is invertible. SPHC_E_ARGUMENT:
-    /// null, not finite, or a camera that sphc_camera_check refuses. Thread class: pure.
+    /// Pixel of a point in camera coordinates. SPHC_OUTSIDE, \*pixel_px untouched, if it is not in front of
+    /// the camera, is more than about 89 degrees off its axis (83 for the Brown models), or lies where the
+    /// distortion is not invertible. SPHC_E_ARGUMENT: null, not finite, or a camera that sphc_camera_check
+    /// refuses. Thread class: pure.
     pub fn sphc_camera_project(camera: *const sphc_camera, point_m: *const [f64; 3], pixel_px: *mut [f64; 2]) -> sphc_status;
 
     /// Unit bearing (camera coordinates) of a pixel. SPHC_OUTSIDE, \*bearing untouched, if no bearing
-    /// projects there. SPHC_E_ARGUMENT: as above. Thread class: pure.
+    /// within that angle projects there. SPHC_E_ARGUMENT: as above. Thread class: pure.
     pub fn sphc_camera_unproject(camera: *const sphc_camera, pixel_px: *const [f64; 2], bearing: *mut [f64; 3]) -> sphc_status;
 
     /// Identity and millimetres; the cameras stay zero and must be set. Does nothing for null. Thread

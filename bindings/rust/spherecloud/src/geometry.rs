@@ -143,8 +143,9 @@ impl Camera {
         check(|message| unsafe { sys::sphc_camera_check(&self.0, message) }).map(drop)
     }
 
-    /// The pixel of a point in camera coordinates, in metres. `None`: it is not in front of the camera, or it lies
-    /// beyond the range in which the distortion is invertible; or [`Camera::check`] fails.
+    /// The pixel of a point in camera coordinates, in metres. `None`: it is not in front of the camera; it lies more
+    /// than about 89 degrees off the axis (83 for the Brown models), or beyond the range in which the distortion is
+    /// invertible; or [`Camera::check`] fails.
     pub fn project(&self, point_m: [f64; 3]) -> Option<[f64; 2]> {
         let mut pixel_px = [0.0; 2];
         // SAFETY: [pure].

@@ -50,15 +50,15 @@ final class Native {
   static native int cameraCheck(long camera, long message);
 
   /**
-   * Pixel of a point given in camera coordinates. {@link Status#OUTSIDE}, *pixel_px untouched, if it is not in
-   * front of the camera or lies beyond the range in which the distortion is invertible. {@link Status#E_ARGUMENT}:
-   * null, not finite, or a camera that sphc_camera_check refuses.
+   * Pixel of a point in camera coordinates. {@link Status#OUTSIDE}, *pixel_px untouched, if it is not in front of
+   * the camera, is more than about 89 degrees off its axis (83 for the Brown models), or lies where the distortion
+   * is not invertible. {@link Status#E_ARGUMENT}: null, not finite, or a camera that sphc_camera_check refuses.
    */
   static native int cameraProject(long camera, long pointM, long pixelPx);
 
   /**
-   * Unit bearing (camera coordinates) of a pixel. {@link Status#OUTSIDE}, *bearing untouched, if no bearing
-   * projects there. {@link Status#E_ARGUMENT}: as above.
+   * Unit bearing (camera coordinates) of a pixel. {@link Status#OUTSIDE}, *bearing untouched, if no bearing within
+   * that angle projects there. {@link Status#E_ARGUMENT}: as above.
    */
   static native int cameraUnproject(long camera, long pixelPx, long bearing);
 

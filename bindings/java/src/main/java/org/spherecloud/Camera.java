@@ -75,7 +75,8 @@ public final class Camera extends CameraFields {
 
   /**
    * The pixel of a point in camera coordinates: three numbers in, two numbers out.  False where it has none: it is not
-   * in front of the camera, or beyond the range in which the distortion can be inverted.
+   * in front of the camera, more than about 89 degrees off the axis (83 for the Brown models), or beyond the range in
+   * which the distortion can be inverted.
    *
    * @throws SpherecloudException the camera itself does not pass {@link #check}
    */
