@@ -121,7 +121,7 @@ Bytes rosCompressedImage(int64_t time_ns, const std::string &frame, const std::s
 // `k`: fx, fy, cx, cy with the centre of the first pixel at 0; the projection has twice the focal length.
 template <typename Writer = CdrWriter>
 Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t height, const std::string &model,
-                    const std::vector<double> &d, const double (&k)[4], uint32_t binning = 0) {
+                    const std::vector<double> &d, const double (&k)[4], uint32_t binning = 0, uint32_t roi_x = 0) {
   Bytes message;
   Writer writer(message);
   putRosHeader(writer, 0, frame);
@@ -134,7 +134,7 @@ Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t height, c
   for (const double each : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) writer.put(each);
   for (const double each : {2 * k[0], 0.0, k[2], 0.0, 0.0, 2 * k[1], k[3], 0.0, 0.0, 0.0, 1.0, 0.0})
     writer.put(each);
-  for (const uint32_t each : {binning, binning, 0u, 0u, 0u, 0u}) writer.put(each);
+  for (const uint32_t each : {binning, binning, roi_x, 0u, 0u, 0u}) writer.put(each);
   writer.put(uint8_t{0});
   return message;
 }

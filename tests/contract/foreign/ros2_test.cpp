@@ -72,9 +72,9 @@ class Ros2 : public ::testing::Test {
                             depthPixels(static_cast<uint16_t>(1000 + i))));
   }
   void addColorInfo(const std::vector<double> &d = {0.1, -0.05, 0.001, 0, 0.02}, const char *model = "plumb_bob",
-                    uint32_t binning = 0) {
+                    uint32_t binning = 0, uint32_t roi_x = 0) {
     bag_.add("/camera/color/camera_info", kInfo, kStartNs,
-             test::rosCameraInfo(kColorFrame, kWidth, kHeight, model, d, {30, 31, 15.5, 11.5}, binning));
+             test::rosCameraInfo(kColorFrame, kWidth, kHeight, model, d, {30, 31, 15.5, 11.5}, binning, roi_x));
   }
   void addDepthInfo() {
     bag_.add(
@@ -637,6 +637,13 @@ TEST_F(Ros2, BinnedImagesAreRefused) {
   addDepth(0);
   addColorInfo({}, "plumb_bob", 2);
   EXPECT_THAT(refusalOfOpen(), HasSubstr("binned"));
+}
+
+TEST_F(Ros2, ImagesOfAPartOfTheSensorAreRefused) {
+  addColor(0);
+  addDepth(0);
+  addColorInfo({}, "plumb_bob", 0, 8);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("a part of the sensor's (binning, roi)"));
 }
 
 TEST_F(Ros2, AnEncodingThatIsNotReadIsNamed) {
