@@ -136,6 +136,10 @@ function(sphc_install_package)
     EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   # One of them all: packages of the others depend on this one.
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT runtime)
+  # The pages that headers, help texts and messages name.  Some recipes bring the sources without them.
+  if(EXISTS ${PROJECT_SOURCE_DIR}/docs)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+  endif()
   # Of those that have the code; each in a folder of its own, since two packages may not bring one file.
   set(has_lzfse drivers host)
   if(NOT TARGET sphc_lzfse)

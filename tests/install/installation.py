@@ -5,6 +5,7 @@
 """
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -42,6 +43,17 @@ def complete(options):
         is_code = content.startswith((b"\x7fELF", b"!<arch>"))
         faults += [f"{path} names {folder}" for folder in (options.root, options.build)
                    if str(folder).encode() in content and not (is_code and options.names)]
+    return faults
+
+
+def pages(options):
+    """Every page that a header, a help text or a message names is installed."""
+    docs = options.prefix / "share/doc/spherecloud"
+    files = [path for path in options.prefix.rglob("*") if path.is_file() and docs / "docs" not in path.parents]
+    named = {(page.decode(), path) for path in files for page in re.findall(rb"docs/[\w/-]+\.md", path.read_bytes())}
+    named_by = {path.relative_to(options.prefix).parts[0] for page, path in named}
+    faults = [f"{path} names {page}, which is not installed" for page, path in sorted(named) if not (docs / page).is_file()]
+    faults += [f"no file of {folder} names a page" for folder in ("bin", "include") if folder not in named_by]
     return faults
 
 
@@ -171,7 +183,7 @@ def packages(options):
     library = "libspherecloud" + options.version.split(".")[0]
     depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "libspherecloud-signature-dev": "libspherecloud-dev",
                "libspherecloud-encryption-dev": "libspherecloud-dev", "spherecloud-tools": library,
-               PYTHON_PACKAGE: library}
+               PYTHON_PACKAGE: library, "spherecloud-doc": ""}
     if (options.prefix / PLUGIN.format(lib=options.libdir)).exists():
         depends["spherecloud-libcamera"] = "libcamera"
     faults, owners = [f"{name} has other bytes when it is made again" for name in once if once[name] != again[name]], {}
@@ -220,7 +232,7 @@ def names_in(folder):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    checks = {check.__name__: check for check in (complete, refusals, staged, told_in_full, packages)}
+    checks = {check.__name__: check for check in (complete, pages, refusals, staged, told_in_full, packages)}
     parser.add_argument("check", choices=checks)
     parser.add_argument("--root", type=Path, required=True)
     parser.add_argument("--build", type=Path, required=True)

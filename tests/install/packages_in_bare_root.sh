@@ -40,6 +40,7 @@ bare "$place/packages"
 cpack --config "$1/CPackConfig.cmake" -B "$place/packages/debs" >"$place/cpack.log" 2>&1 || fail "cpack failed: $(tail -n 3 "$place/cpack.log")"
 
 step "the command" "apt-get update -qq; apt-get install -y --no-install-recommends /debs/libspherecloud[0-9]*.deb /debs/spherecloud-tools*.deb; spherecloud --version"
+step "the pages" "apt-get install -y --no-install-recommends /debs/spherecloud-doc*.deb; test -s /usr/share/doc/spherecloud/docs/release.md; echo they are there"
 step "a map and its poses" "cd /tmp; spherecloud simulate --frames 12 --rate 3 --out walk; spherecloud build --recording walk --map room.sphc --last 8
   spherecloud localize --recording walk --first 9 --map room.sphc --owner-note room.sphc.owner.json; test -s room.sphc; echo localized"
 step "libcamera" "apt-get install -y --no-install-recommends /debs/spherecloud-libcamera*.deb
