@@ -119,6 +119,10 @@ function(sphc_install_package)
   set(of_cxx ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES}) # what a C compiler does not link by itself
   list(REMOVE_ITEM of_cxx ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
   sphc_linker_flags(runtime_libraries ${SPHC_HWY_LIBRARIES} ${of_cxx})
+  set(highway_folder) # where no linker looks by itself
+  if(SPHC_HWY_LIBDIR AND NOT CMAKE_CROSSCOMPILING AND NOT SPHC_HWY_LIBDIR IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
+    set(highway_folder "-L${SPHC_HWY_LIBDIR} ")
+  endif()
   sphc_install_pc(spherecloud development)
   sphc_install_pc(spherecloud-signature signature)
   sphc_install_pc(spherecloud-encryption encryption)

@@ -168,6 +168,47 @@ def told_in_full(options):
     return faults
 
 
+LINKS = """cmake_minimum_required(VERSION 3.25)
+project(links LANGUAGES CXX)
+find_package(SphereCloud REQUIRED)
+file(WRITE links.cpp "#include <spherecloud/spherecloud.h>\\nint main() { return sphc_abi() == SPHC_ABI ? 0 : 1; }")
+add_executable(links links.cpp)
+target_link_libraries(links PRIVATE SphereCloud::spherecloud)
+"""
+
+
+def highway_elsewhere(options):
+    """The static library is linked with Highway where CMake and pkg-config know it from, though no linker looks there."""
+    told = subprocess.run(["pkg-config", "--variable=libdir", "libhwy"], text=True, capture_output=True, check=False)
+    if "-lhwy" not in (options.prefix / options.libdir / "pkgconfig/spherecloud.pc").read_text(encoding="utf-8"):
+        return []  # single lanes, or what the compiler's flags allow: headers alone
+    folder = options.prefix.parent / "highway_elsewhere"
+    shutil.rmtree(folder, ignore_errors=True)
+    libdir = folder / "highway/lib"
+    (libdir / "pkgconfig").mkdir(parents=True)
+    (libdir / "libhwy.so").symlink_to(Path(told.stdout.strip()) / "libhwy.so")
+    (libdir / "pkgconfig/libhwy.pc").write_text(
+        f"libdir={libdir}\nName: libhwy\nDescription: Highway, elsewhere\nVersion: 1.0.3\nLibs: -L${{libdir}} -lhwy\n", encoding="utf-8")
+
+    def cmake(*arguments):
+        return subprocess.run(["cmake", *arguments], env=dict(os.environ, PKG_CONFIG_PATH=str(libdir / "pkgconfig")), text=True, capture_output=True, check=False)
+
+    (folder / "CMakeLists.txt").write_text(LINKS, encoding="utf-8")
+    runs = [cmake("-S", folder, "-B", folder / "links", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={options.prefix};{folder / 'highway'}"),
+            cmake("--build", folder / "links"),
+            cmake("-S", options.root, "-B", folder / "build", "-G", "Ninja", *(f"-DSPHC_{part}=OFF" for part in ("HOST", "DRIVERS", "EXAMPLES", "TESTS")))]
+    faults = [run.stdout + run.stderr for run in runs if run.returncode]
+    if faults:
+        return faults
+    if f"{libdir}/libhwy.so" not in (folder / "links/build.ninja").read_text(encoding="utf-8"):
+        faults.append(f"find_package takes another Highway than that of CMAKE_PREFIX_PATH, {libdir}")
+    flags = subprocess.run(["pkg-config", "--static", "--libs", "spherecloud"], env=dict(os.environ, PKG_CONFIG_PATH=str(folder / "build/install")),
+                           text=True, capture_output=True, check=False).stdout
+    if f"-L{libdir} -lhwy" not in flags:
+        faults.append(f"pkg-config does not say where Highway is that the library was built with: {flags}")
+    return faults
+
+
 def made_into(folder, options):
     """{name of a package: its bytes}, made at a time of their own, and dated by SOURCE_DATE_EPOCH."""
     subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True,
@@ -232,7 +273,7 @@ def names_in(folder):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    checks = {check.__name__: check for check in (complete, pages, refusals, staged, told_in_full, packages)}
+    checks = {check.__name__: check for check in (complete, pages, refusals, staged, told_in_full, highway_elsewhere, packages)}
     parser.add_argument("check", choices=checks)
     parser.add_argument("--root", type=Path, required=True)
     parser.add_argument("--build", type=Path, required=True)

@@ -31,6 +31,15 @@ function(_spherecloud_find component)
   endif()
 endfunction()
 
+# What the static library links lies where this machine has it: CMAKE_PREFIX_PATH tells, as of any other package.  Where it
+# is not found the linker says so, if it is needed.
+if(NOT TARGET SphereCloud::highway)
+  find_library(SphereCloud_HIGHWAY hwy)
+  mark_as_advanced(SphereCloud_HIGHWAY)
+  add_library(SphereCloud::highway INTERFACE IMPORTED)
+  target_link_libraries(SphereCloud::highway INTERFACE $<IF:$<BOOL:${SphereCloud_HIGHWAY}>,${SphereCloud_HIGHWAY},hwy>)
+endif()
+
 _spherecloud_find(runtime) # the drivers link it
 foreach(_spherecloud_component ${SphereCloud_FIND_COMPONENTS})
   _spherecloud_find(${_spherecloud_component})
