@@ -32,10 +32,11 @@ static void must(const char *what, sphc_status status, const char *why) {
   if (status < 0) stop(what, why);
 }
 
-static void *memory(uint64_t bytes) {
-  void *made = aligned_alloc(64, (size_t)(bytes + 63) / 64 * 64);
-  if (!made) stop("memory", "none left");
-  return made;
+/* An aligned place in `block`, which is to be freed.  Not every C library has aligned_alloc. */
+static void *memory(uint64_t bytes, void **block) {
+  *block = malloc((size_t)bytes + 64);
+  if (!*block) stop("memory", "none left");
+  return (char *)*block + (64 - (uintptr_t)*block % 64) % 64;
 }
 
 static FILE *file(const char *folder, const char *name) {
@@ -166,7 +167,8 @@ int main(int count, char **words) {
        sphc_map_init(map_memory, sizeof map_memory, data_map, (size_t)(data_map_end - data_map), &map, &message),
        message.text);
   must("memory", sphc_localizer_memory(&config, &need, &message), message.text);
-  void *state = memory(need.state_bytes), *scratch = memory(need.scratch_bytes);
+  void *state_block, *scratch_block;
+  void *state = memory(need.state_bytes, &state_block), *scratch = memory(need.scratch_bytes, &scratch_block);
   must("localizer",
        sphc_localizer_init(state, (size_t)need.state_bytes, scratch, (size_t)need.scratch_bytes, &config,
                            &localizer, &message),
@@ -183,7 +185,7 @@ int main(int count, char **words) {
   if (fclose(out)) stop("session.csv", "cannot write; is the disk full?");
   sphc_localizer_fini(&localizer);
   sphc_map_fini(&map);
-  free(state);
-  free(scratch);
+  free(state_block);
+  free(scratch_block);
   return 0;
 }
