@@ -167,6 +167,18 @@ TEST(LocalizerTracking, AfterAmbiguousFramesAPoseMakesNoTrackSure) {
   }
 }
 
+TEST(LocalizerTracking, AmbiguousFramesAreForgottenWithAResetAndTheClock) {
+  for (void (Walk::*anew)() : {&Walk::forget, &Walk::setClockBack}) {
+    Walk walk(trackingConfig());
+    walk.showBelow(0.5, 4);
+    for (uint32_t i = 0; i < 4; ++i) ASSERT_EQ(walk.see(0).hints, uint32_t{SPHC_HINT_AMBIGUOUS});
+    walk.showBelow(1, 4);
+    (walk.*anew)();
+    EXPECT_GT(walk.see(0).confidence, 0.95);
+    EXPECT_EQ(walk.see(1).state, SPHC_STATE_TRACKING);
+  }
+}
+
 TEST(LocalizerTracking, ADarkFrameIsOvercome) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
@@ -211,6 +223,19 @@ TEST(LocalizerTracking, OdometryOfAnInverseIsNamedAndLeftOut) {
   }
   walk.forget();
   EXPECT_EQ(walk.see(before + 4).faults, 0u);
+}
+
+TEST(LocalizerTracking, OdometryThatDisagreedIsForgottenWithTheClockAndTheMap) {
+  for (void (Walk::*anew)() : {&Walk::setClockBack, &Walk::takeMapAwayAndGiveItBack}) {
+    Walk walk(trackingConfig());
+    walk.useOdometry();
+    walk.invertOdometry();
+    uint32_t viewpoint = 0;
+    while (viewpoint < 10 && !(walk.see(viewpoint).faults & SPHC_FAULT_ODOMETRY_DISAGREES)) ++viewpoint;
+    ASSERT_LT(viewpoint, 10u);
+    (walk.*anew)();
+    EXPECT_EQ(walk.see(viewpoint + 1).faults, 0u);
+  }
 }
 
 TEST(LocalizerTracking, OdometryOfAnotherScaleIsNamedAndVetoesNothing) {
@@ -327,6 +352,20 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   EXPECT_GT(most_frames, 1u);
 }
 
+// What was seen before names points of the map that was there.
+TEST(LocalizerTracking, FramesOfAMapThatIsReplacedAreNotPutTogether) {
+  sphc_localizer_config config = trackingConfig();
+  config.max_keypoints = 80;
+  for (const bool is_replaced : {false, true}) {
+    Walk walk(config, 0.2);
+    walk.useOdometry();
+    for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) walk.see(viewpoint);
+    ASSERT_NE(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED) << "else there is nothing to put together";
+    if (is_replaced) walk.replaceMap();
+    EXPECT_EQ(walk.see(5).frames, is_replaced ? 1u : 2u);
+  }
+}
+
 // A lens that zooms or refocuses: its calibration holds before and after.
 TEST(LocalizerTracking, AFocalLengthThatChangesIsNamedWhileItIsAnother) {
   Walk walk(trackingConfig());
@@ -420,7 +459,7 @@ TEST(LocalizerTracking, ImagesThatAreHardlyApartAreTracked) {
 }
 
 // Blocks in depth of which the image shows nothing; a dark image shows noise.
-Faults faultsOfStrangeDepth(bool dark) {
+Faults faultsOfStrangeDepth(bool dark, bool forgets = false) {
   const sphc_localizer_config config = trackingConfig();
   test::Session session(config);
   Random random(7);
@@ -436,6 +475,7 @@ Faults faultsOfStrangeDepth(bool dark) {
     frame.color_time_ns = frame.depth_time_ns = (i + 1) * 10 * kStepNs;
     sphc_localizer_result result = {};
     session.process(frame, &result);
+    if (forgets) sphc_localizer_reset(session.localizer());
     faults |= result.faults;
   }
   return faults;
@@ -444,6 +484,10 @@ Faults faultsOfStrangeDepth(bool dark) {
 TEST(LocalizerTracking, DepthIsNotSaidToDisagreeWithAnImageOfNoise) {
   EXPECT_NE(faultsOfStrangeDepth(false) & SPHC_FAULT_DEPTH_COLOR_DISAGREE, 0u);
   EXPECT_EQ(faultsOfStrangeDepth(true) & SPHC_FAULT_DEPTH_COLOR_DISAGREE, 0u);
+}
+
+TEST(LocalizerTracking, DoubtsOfDepthAreForgottenWithAReset) {
+  EXPECT_EQ(faultsOfStrangeDepth(false, true) & SPHC_FAULT_DEPTH_COLOR_DISAGREE, 0u);
 }
 
 // A common scale of all depths moves every point of the map by as much, and the pose with them.
