@@ -458,7 +458,8 @@ struct BadFrame {
 };
 
 TEST(Cameras, ABadFrameIsRefusedWithItsCause) {
-  static sphc_camera other = sphc::test::pinhole(320, 240, 300);
+  static sphc_camera wider = sphc::test::pinhole(404, 304, 300), higher = sphc::test::pinhole(400, 308, 300),
+                     broken = sphc::test::pinhole(400, 304, -300);
   static sphc_rigid bent = {{1, 1, 0, 0}, {0, 0, 0}};
   const BadFrame cases[] = {
       {"too few",
@@ -476,7 +477,9 @@ TEST(Cameras, ABadFrameIsRefusedWithItsCause) {
        SPHC_E_IMAGE,
        {"i = 1", "frame.views[i]", "256"}},
       {"format", [](RigFrame *f) { f->views[1].image.format = SPHC_FORMAT_DEPTH16; }, SPHC_E_IMAGE, {"i = 1"}},
-      {"camera", [](RigFrame *f) { f->views[0].camera = &other; }, SPHC_E_ARGUMENT, {"i = 0", "camera", "400"}},
+      {"width", [](RigFrame *f) { f->views[0].camera = &wider; }, SPHC_E_ARGUMENT, {"i = 0", "404 x 304", "400"}},
+      {"height", [](RigFrame *f) { f->views[0].camera = &higher; }, SPHC_E_ARGUMENT, {"i = 0", "400 x 308"}},
+      {"camera", [](RigFrame *f) { f->views[0].camera = &broken; }, SPHC_E_ARGUMENT, {"i = 0", "camera.params"}},
       {"mount", [](RigFrame *f) { f->views[0].color_from_camera = &bent; }, SPHC_E_ARGUMENT, {"color_from_camera"}},
       {"colour mount",
        [](RigFrame *f) { f->frame.color_from_depth = &bent; },
@@ -498,6 +501,54 @@ TEST(Cameras, ABadFrameIsRefusedWithItsCause) {
   sphc_localizer_result result = spherecloud::emptyResult();
   EXPECT_EQ(session.process(good.frame, &result), SPHC_OK);
   EXPECT_TRUE(session.state().guardsIntact() && session.scratch().guardsIntact());
+}
+
+TEST(Cameras, AnImageInsideTheLocalizersMemoryIsRefused) {
+  const Rig rig;
+  Session session(rig.config);
+  RigFrame made(rig, kViewpoint);
+  made.views[1].image.data = session.scratch().data();
+  sphc_localizer_result result = spherecloud::emptyResult();
+  EXPECT_EQ(session.process(made.frame, &result), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(session.localizer()), "scratch memory overlaps the image of a view");
+}
+
+TEST(Cameras, FeaturesOfAnotherSizeAreNotLocated) {
+  const Rig rig;
+  Rig higher;
+  higher.cameras[1].camera = sphc::test::pinhole(256, 212, 200);
+  const RigFrame made(rig, kViewpoint), other(higher, kViewpoint);
+  Session session(rig.config), session_of_other(higher.config);
+  sphc_memory need = {};
+  ASSERT_EQ(sphc_features_memory(&higher.config, &need, nullptr), SPHC_OK);
+  GuardedMemory memory(need.state_bytes, need.alignment);
+  sphc_features *features = nullptr;
+  ASSERT_EQ(sphc_features_init(memory.data(), memory.size(), &higher.config, &features, nullptr), SPHC_OK);
+  ASSERT_EQ(sphc_localizer_extract(session_of_other.localizer(), &other.frame, features), SPHC_OK);
+  sphc_localizer_result result = spherecloud::emptyResult();
+  EXPECT_EQ(sphc_localizer_locate(session.localizer(), &made.frame, features, &result), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(session.localizer()), "make both with one config");
+}
+
+// A newer header has fields behind those that are known, and so more bytes from a view to the next.
+TEST(Cameras, ViewsOfANewerHeaderAreRead) {
+  struct NewerView {
+    sphc_localizer_view known;
+    uint64_t added = 0;
+  };
+  const Rig rig;
+  RigFrame made(rig, kViewpoint);
+  Session before(rig.config), newer(rig.config);
+  sphc_localizer_result expected = spherecloud::emptyResult(), result = spherecloud::emptyResult();
+  ASSERT_EQ(before.process(made.frame, &expected), SPHC_OK);
+  std::vector<NewerView> views(made.views.size());
+  for (size_t i = 0; i < views.size(); ++i) {
+    views[i].known = made.views[i];
+    views[i].known.struct_size = sizeof(NewerView);
+  }
+  made.frame.views = &views[0].known;
+  ASSERT_EQ(newer.process(made.frame, &result), SPHC_OK) << sphc_localizer_message(newer.localizer());
+  EXPECT_EQ(std::memcmp(&result, &expected, sizeof result), 0);
 }
 
 TEST(Cameras, BoundsOfMemoryHold) {

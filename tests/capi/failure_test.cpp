@@ -170,6 +170,11 @@ TEST_F(CInterfaceFailure, AMapInsideTheLocalizersMemory) {
   ASSERT_EQ(sphc_map_init(inside, 4096, file.data(), file.size(), &view, nullptr), SPHC_OK);
   EXPECT_EQ(sphc_localizer_set_map(made, 0, view), SPHC_E_ARGUMENT);
   expectMentions(sphc_localizer_message(made), "scratch memory overlaps the view of a map");
+  inside = static_cast<uint8_t *>(i.state) + i.state_bytes / 128 * 64;  // a part that only frames use
+  std::memcpy(inside, file.data(), file.size());
+  ASSERT_EQ(sphc_map_init(view_memory.data(), 4096, inside, file.size(), &view, nullptr), SPHC_OK);
+  EXPECT_EQ(sphc_localizer_set_map(made, 0, view), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(made), "state memory overlaps the file of a map");
   EXPECT_EQ(sphc_localizer_map_count(made), 0u);
 }
 

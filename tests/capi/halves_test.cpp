@@ -264,6 +264,10 @@ TEST_F(Halves, BadArraysAreRefused) {
       {[](sphc_features_arrays *a) { ++a->count; }, SPHC_E_CAPACITY, "config.max_keypoints is"},
       {[](sphc_features_arrays *a) { a->keypoint_stride_bytes = 16; }, SPHC_E_ARGUMENT, "strides of 16"},
       {[](sphc_features_arrays *a) { a->keypoint_stride_bytes = 22; }, SPHC_E_ARGUMENT, "strides of 22"},
+      {[](sphc_features_arrays *a) { a->keypoint_stride_bytes = SPHC_STRIDE_MAX_BYTES + 4; }, SPHC_E_ARGUMENT,
+       "strides of 1048580"},
+      {[](sphc_features_arrays *a) { a->descriptor_stride_bytes = SPHC_STRIDE_MAX_BYTES + 1; }, SPHC_E_ARGUMENT,
+       "1048577 bytes"},
       {[](sphc_features_arrays *a) { a->descriptor_stride_bytes = 127; }, SPHC_E_ARGUMENT, "127 bytes"},
       {[](sphc_features_arrays *a) { a->keypoints = nullptr; }, SPHC_E_ARGUMENT, "arrays.keypoints is null"},
       {[](sphc_features_arrays *a) { a->descriptors = nullptr; }, SPHC_E_ARGUMENT, "arrays.descriptors is null"}};

@@ -341,6 +341,11 @@ TEST_F(CInterfaceLocalizer, WarnsOnceOfTimesThatDoNotGrow) {
   EXPECT_EQ(see(66000000), 0u);
   for (int again = 0; again < 2; ++again) EXPECT_EQ(see(66000000), 1u);
   expectMentions(lines[0].c_str(), "color_time_ns does not grow");
+  config_.mode = SPHC_MODE_SINGLE;
+  Session single(config_);
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  for (int again = 0; again < 5; ++again) EXPECT_EQ(single.process(made->frame, &result), SPHC_OK);
+  EXPECT_EQ(lines.size(), 1u) << "frames alone need no times";
 }
 
 TEST_F(CInterfaceLocalizer, WarnsOnceOfEachFault) {

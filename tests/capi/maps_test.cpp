@@ -260,6 +260,14 @@ TEST_F(CInterfaceMaps, APriorNamesAMapThatIsThere) {
   ASSERT_EQ(sphc_localizer_remove_map(localizer(), 1), SPHC_OK);
   EXPECT_EQ(session_->process(made->frame, &result), SPHC_E_ARGUMENT);
   sphc::test::expectMentions(sphc_localizer_message(localizer()), "prior.map_id is 1");
+  prior.flags = SPHC_PRIOR_UP;
+  prior.up_camera[1] = prior.up_map[1] = 1;
+  prior.up_sigma_rad = 0.01;
+  EXPECT_EQ(session_->process(made->frame, &result), SPHC_E_ARGUMENT);
+  prior.flags = SPHC_PRIOR_ODOMETRY;  // which is of no map
+  prior.odometry_from_camera = found.camera_from_map;
+  prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 0.01;
+  EXPECT_EQ(session_->process(made->frame, &result), SPHC_NOT_LOCALIZED);
 }
 
 // As many maps as there is memory for; the order in which they came does not change a pose.

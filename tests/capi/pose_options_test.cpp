@@ -158,6 +158,15 @@ TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_map is (0, 1, 1e18+)");
   prior.up_map[2] = 1.001 * SPHC_UP_MAX_LENGTH;
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_map is (0, 1, 1001000)");
+  prior = good;
+  prior.flags = SPHC_PRIOR_ODOMETRY;
+  prior.odometry_from_camera = good.camera_from_map;
+  prior.odometry_rotation_sigma_rad = 1.1;
+  prior.odometry_translation_sigma_m = 0.01;
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.odometry_rotation_sigma_rad");
+  prior.odometry_rotation_sigma_rad = 0.01;
+  prior.odometry_translation_sigma_m = 0;
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.odometry_translation_sigma_m");
   localize(&session, 1, &good);
   EXPECT_EQ(status_, SPHC_OK);  // and it goes on
 }

@@ -41,10 +41,11 @@ class CheckImageTest : public testing::Test {
  protected:
   sphc_status check(const sphc_image &image, sphc_format depth_format = 0) {
     sphc_camera camera = {};
-    camera.width = 8;
+    camera.width = width_px_;
     camera.height = 4;
     return checkImage("color", image, camera, {depth_format, "config.depth_format"}, &message_);
   }
+  uint32_t width_px_ = 8;
   alignas(2) uint8_t pixels_[8 * 4 * 3 + 1] = {};
   sphc_message message_ = {};
 };
@@ -63,6 +64,13 @@ TEST_F(CheckImageTest, ItsRowsAreWhole) {
   EXPECT_EQ(check({pixels_, 8, 4, 17, SPHC_FORMAT_DEPTH16}, SPHC_FORMAT_DEPTH16), SPHC_E_IMAGE);
   EXPECT_EQ(check({pixels_, 7, 4, 8, SPHC_FORMAT_GRAY8}), SPHC_E_IMAGE);
   EXPECT_EQ(check({pixels_, 8, 5, 8, SPHC_FORMAT_GRAY8}), SPHC_E_IMAGE);
+}
+
+TEST_F(CheckImageTest, PixelsThatShareBytesAreWhole) {
+  EXPECT_EQ(check({pixels_, 8, 4, 12, SPHC_FORMAT_GRAY12P}), SPHC_OK);
+  width_px_ = 7;
+  EXPECT_EQ(check({pixels_, 7, 4, 12, SPHC_FORMAT_GRAY12P}), SPHC_E_IMAGE);
+  EXPECT_THAT(message_.text, HasSubstr("7 wide, and 2 pixels"));
 }
 
 TEST_F(CheckImageTest, ItsPixelsAreThereAndAligned) {

@@ -47,6 +47,21 @@ TEST(Localizer, AFocalLengthThatTheMatchesDoNotAgreeWithIsNamed) {
   }
 }
 
+TEST(Localizer, MoreBiasThanASoundDepthSensorHasIsNamed) {
+  sphc_localizer_config config = test::sceneConfig();
+  config.depth_offset_sigma_m = 0.003;
+  config.depth_slope_sigma = 0.001;
+  test::Session session(config);
+  const auto frame = test::sceneFrame(config, 0);
+  sphc_localizer_result result;
+  ASSERT_EQ(session.process(frame->frame, &result), SPHC_OK);
+  EXPECT_EQ(result.faults, 0u);
+  result.depth.offset_m = 0.1;
+  ASSERT_EQ(sphc_localizer_set_depth_bias(session.localizer(), &result.depth), SPHC_OK);
+  session.process(frame->frame, &result);
+  EXPECT_EQ(result.faults, uint32_t{SPHC_FAULT_DEPTH_BIAS});
+}
+
 TEST(Localizer, DarknessHasFewKeypoints) {
   const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);
