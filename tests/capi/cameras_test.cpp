@@ -513,21 +513,24 @@ TEST(Cameras, AnImageInsideTheLocalizersMemoryIsRefused) {
   expectMentions(sphc_localizer_message(session.localizer()), "scratch memory overlaps the image of a view");
 }
 
-TEST(Cameras, FeaturesOfAnotherSizeAreNotLocated) {
+TEST(Cameras, FeaturesOfOtherImagesAreNotLocated) {
   const Rig rig;
-  Rig higher;
+  Rig higher, fewer;
   higher.cameras[1].camera = sphc::test::pinhole(256, 212, 200);
-  const RigFrame made(rig, kViewpoint), other(higher, kViewpoint);
-  Session session(rig.config), session_of_other(higher.config);
-  sphc_memory need = {};
-  ASSERT_EQ(sphc_features_memory(&higher.config, &need, nullptr), SPHC_OK);
-  GuardedMemory memory(need.state_bytes, need.alignment);
-  sphc_features *features = nullptr;
-  ASSERT_EQ(sphc_features_init(memory.data(), memory.size(), &higher.config, &features, nullptr), SPHC_OK);
-  ASSERT_EQ(sphc_localizer_extract(session_of_other.localizer(), &other.frame, features), SPHC_OK);
-  sphc_localizer_result result = spherecloud::emptyResult();
-  EXPECT_EQ(sphc_localizer_locate(session.localizer(), &made.frame, features, &result), SPHC_E_ARGUMENT);
-  expectMentions(sphc_localizer_message(session.localizer()), "make both with one config");
+  fewer.cameras.pop_back();
+  fewer.config.camera_count = 1;
+  const RigFrame made(rig, kViewpoint);
+  Session session(rig.config);
+  for (const Rig *other : {&higher, &fewer}) {
+    const RigFrame of_other(*other, kViewpoint);
+    Session session_of_other(other->config);
+    spherecloud::Features features;
+    ASSERT_TRUE(spherecloud::Features::make(other->config, &features).ok());
+    ASSERT_EQ(sphc_localizer_extract(session_of_other.localizer(), &of_other.frame, features.get()), SPHC_OK);
+    sphc_localizer_result result = spherecloud::emptyResult();
+    EXPECT_EQ(sphc_localizer_locate(session.localizer(), &made.frame, features.get(), &result), SPHC_E_ARGUMENT);
+    expectMentions(sphc_localizer_message(session.localizer()), "make both with one config");
+  }
 }
 
 // A newer header has fields behind those that are known, and so more bytes from a view to the next.

@@ -503,6 +503,8 @@ TEST(LocalizerTracking, PointsThatLieElsewhereThanTheyDidTakeThePoseAway) {
   EXPECT_EQ(walk.see(3).outcome, SPHC_OUTCOME_LOCALIZED)
       << "after a second the earlier frames may be the wrong ones";
   EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED);
+  walk.scaleDepth(1);
+  EXPECT_EQ(walk.see(3).outcome, SPHC_OUTCOME_CONTRADICTION) << "what is kept now is of the later ones";
 }
 
 TEST(LocalizerTracking, WhatPointsSaidIsForgottenWithAResetTheClockAndTheMap) {
