@@ -346,6 +346,16 @@ TEST(DepthCameras, ABadFrameIsRefusedWithItsCause) {
   }
 }
 
+TEST(DepthCameras, AnImageInsideTheLocalizersMemoryIsRefused) {
+  const DepthRig rig;
+  Session session(rig.config);
+  DepthFrame made(rig, kSeenFrom);
+  made.view.depth.data = session.scratch().data();
+  sphc_localizer_result result = spherecloud::emptyResult();
+  EXPECT_EQ(session.process(made.frame(), &result), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(session.localizer()), "scratch memory overlaps");
+}
+
 TEST(DepthCameras, BoundsOfMemoryHold) {
   for (const uint32_t side : {32u, 480u, 1024u}) {
     DepthRig rig;
