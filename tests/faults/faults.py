@@ -191,10 +191,16 @@ class Server:
         """Memory ran out where no exception may be thrown, as in a destructor, and the process ended there, as by a kill."""
         return "not enough memory" in self.said(".err") and not re.search("^spherecloud: ", self.said(".err"), re.MULTILINE)
 
+    def is_told_whole(self, name, content):
+        """A recording that could not be given its name, is all there under that of its part, and the message says so."""
+        before, part, behind = name.partition(".part")
+        is_told = part and re.search(r"cannot name \S*%s .*; it is whole" % re.escape(before + part), self.said(".err"))
+        return bool(is_told) and content == self.after.get(before + behind)
+
     def defects_of_files(self, allows_unfinished):
         now = state_of(self.folder)
         for name, content in now.items():
-            if allows_unfinished and UNFINISHED.search(name):
+            if (allows_unfinished and UNFINISHED.search(name)) or self.is_told_whole(name, content):
                 continue
             if name not in self.after and name not in self.before:
                 yield "%s is left" % name

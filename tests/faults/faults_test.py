@@ -37,6 +37,13 @@ def main():
         for call, at, fault, expected in EXPECTED:
             became, defects = server.judge(call, at, fault)
             assert any(expected in defect for defect in defects), (call, at, fault, became, defects)
+        assert server.run("malloc", 0, 0) == 0
+        whole = (server.folder / "out").read_bytes()
+        for left, told, expected in ((whole, "cannot name /x/out.part out: no; it is whole", []), (whole[:-1], "cannot name /x/out.part out: no; it is whole", ["out.part is left"]),
+                                     (whole, "cannot name /x/other.part out: no; it is whole", ["out.part is left"])):
+            (server.folder / "out.part").write_bytes(left)
+            pathlib.Path(str(server.folder) + ".err").write_text(told)
+            assert list(server.defects_of_files(False)) == expected, (left, told)
         rows = list(measure(server, None, ["write"], False))
         kinds = list(changed_kinds({"careless": rows}, {"careless": [["careless", "sync"]]}))
         assert kinds == ["careless makes no call sync any more, or it is not seen", "careless has no row of call write in the ledger"], kinds
