@@ -194,7 +194,7 @@ stage_emulated() {
 }
 
 stage_windows() {
-  prepare runtime portability windows
+  prepare runtime windows
   check "windows: the same bytes" tests/portability/variants.sh windows
   check "windows: the binding for Rust" tests/bindings/rust_on_windows.sh
   check "windows: build" build build/windows all --preset windows -DSPHC_TESTS=ON $unity -DSPHC_UNITY_RUNTIME=ON \
