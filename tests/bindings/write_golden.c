@@ -12,6 +12,7 @@
 
 #include <spherecloud/spherecloud.h>
 
+#include "aligned_block.h"
 #include "data.h"
 #include "room.h"
 
@@ -32,11 +33,10 @@ static void must(const char *what, sphc_status status, const char *why) {
   if (status < 0) stop(what, why);
 }
 
-/* An aligned place in `block`, which is to be freed.  Not every C library has aligned_alloc. */
 static void *memory(uint64_t bytes, void **block) {
-  *block = malloc((size_t)bytes + 64);
-  if (!*block) stop("memory", "none left");
-  return (char *)*block + (64 - (uintptr_t)*block % 64) % 64;
+  void *made = aligned_block((size_t)bytes, 64, block);
+  if (!made) stop("memory", "none left");
+  return made;
 }
 
 static FILE *file(const char *folder, const char *name) {

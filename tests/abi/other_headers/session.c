@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../portability/aligned_block.h"
+
 /* Something of the caller's lies behind every struct that the library writes to. */
 #define MARKED(type)  \
   struct {            \
@@ -17,12 +19,6 @@ static int isMarked(const uint8_t *mark, size_t bytes) {
   for (i = 0; i < bytes; ++i)
     if (mark[i] != MARK) return 0;
   return 1;
-}
-
-/* An aligned place in `block`, which is to be freed.  Not every C library has aligned_alloc. */
-static void *allocated(size_t bytes, uint32_t alignment, void **block) {
-  *block = malloc(bytes + alignment);
-  return (uint8_t *)*block + (alignment - (uintptr_t)*block % alignment) % alignment;
 }
 
 /* 0, or the line of what went wrong; so do all below. */
@@ -40,7 +36,7 @@ static int aligns(const seen *what) {
   config.its.rig = what->rig;
   CHECK(sphc_aligner_memory(&config.its, &need, NULL) == SPHC_OK);
   bytes = (size_t)need.state_bytes;
-  memory = allocated(bytes, need.alignment, &block);
+  memory = aligned_block(bytes, need.alignment, &block);
   CHECK(sphc_aligner_init(memory, bytes, &config.its, &aligner, NULL) == SPHC_OK);
   memset(&aligned, 0, sizeof aligned);
   aligned.struct_size = sizeof aligned;
@@ -85,7 +81,7 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
 
   CHECK(sphc_map_memory(&need) == SPHC_OK && need.state_bytes <= SPHC_MAP_BYTES_MAX);
   view_bytes = (size_t)need.state_bytes;
-  view = allocated(view_bytes, need.alignment, &view_block);
+  view = aligned_block(view_bytes, need.alignment, &view_block);
   CHECK(sphc_map_init(view, view_bytes, what->file, what->file_bytes, &map, NULL) == SPHC_OK);
   memset(&info, MARK, sizeof info);
   info.its.struct_size = sizeof info.its;
@@ -103,8 +99,8 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
         SPHC_LOCALIZER_SCRATCH_BYTES_MAX(config.its.max_keypoints, what->color.width, what->color.height));
   state_bytes = (size_t)need.state_bytes;
   scratch_bytes = (size_t)need.scratch_bytes;
-  state = allocated(state_bytes, need.alignment, &state_block);
-  scratch = allocated(scratch_bytes, need.alignment, &scratch_block);
+  state = aligned_block(state_bytes, need.alignment, &state_block);
+  scratch = aligned_block(scratch_bytes, need.alignment, &scratch_block);
   CHECK(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config.its, &localizer, NULL) == SPHC_OK);
   CHECK(sphc_localizer_set_map(localizer, 5, map) == SPHC_OK);
 
