@@ -192,6 +192,7 @@ void Device::start() {
   if (error) refuse(SPHC_E_DEVICE, id_ + ": does not start: " + errorText(error));
   running_ = true;
   for (size_t i = 0; i < requests_.size(); ++i) {
+    mapped_[i].endReading();
     requests_[i]->reuse(Request::ReuseBuffers);
     if (i == 0)  // some handlers ignore the controls of start
       for (const auto &[id, value] : settings_) requests_[i]->controls().set(id, value);
@@ -248,6 +249,7 @@ sphc_status Device::wait(uint32_t timeout_us, sphc_libcamera_frame &frame, sphc_
 
   const Request &request = *requests_[index];
   const FrameMetadata &metadata = request.buffers().begin()->second->metadata();
+  mapped_[index].beginReading();
   frame = {};
   frame.buffer = index;
   frame.sequence = metadata.sequence;
@@ -264,6 +266,7 @@ sphc_status Device::wait(uint32_t timeout_us, sphc_libcamera_frame &frame, sphc_
 
 void Device::queue(uint32_t buffer) {
   if (!running_ || buffer >= requests_.size()) return;
+  mapped_[buffer].endReading();
   requests_[buffer]->reuse(Request::ReuseBuffers);
   const int error = camera_->queueRequest(requests_[buffer].get());
   if (error == 0) return;

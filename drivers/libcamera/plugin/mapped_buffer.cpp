@@ -1,5 +1,7 @@
 #include "mapped_buffer.h"
 
+#include <linux/dma-buf.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -13,7 +15,9 @@ MappedBuffer::~MappedBuffer() {
 }
 
 MappedBuffer::MappedBuffer(MappedBuffer &&other) noexcept
-    : mappings_(std::exchange(other.mappings_, {})), planes_(std::exchange(other.planes_, {})) {}
+    : mappings_(std::exchange(other.mappings_, {})),
+      planes_(std::exchange(other.planes_, {})),
+      is_read_(std::exchange(other.is_read_, false)) {}
 
 // Planes may share a file: each file is mapped once, as long as it is.
 const MappedBuffer::Mapping *MappedBuffer::mapping(int file) {
@@ -42,6 +46,25 @@ bool MappedBuffer::map(const libcamera::FrameBuffer &buffer) {
     ++count;
   }
   return count > 0;
+}
+
+// A buffer of ordinary memory refuses, and has no cache of its own to care for.
+void MappedBuffer::synchronize(uint64_t flags) const {
+  for (const Mapping &mapping : mappings_) {
+    dma_buf_sync sync = {flags | DMA_BUF_SYNC_READ};
+    while (ioctl(mapping.file, DMA_BUF_IOCTL_SYNC, &sync) != 0 && (errno == EINTR || errno == EAGAIN)) {
+    }
+  }
+}
+
+void MappedBuffer::beginReading() {
+  if (!is_read_) synchronize(DMA_BUF_SYNC_START);
+  is_read_ = true;
+}
+
+void MappedBuffer::endReading() {
+  if (is_read_) synchronize(DMA_BUF_SYNC_END);
+  is_read_ = false;
 }
 
 }  // namespace sphc::libcamera_plugin

@@ -20,6 +20,10 @@ class MappedBuffer {
   // False, with errno, when the kernel refuses, or when the planes are more than two or reach out of their files.
   bool map(const libcamera::FrameBuffer &buffer);
   const sphc_libcamera_buffer &planes() const { return planes_; }
+  // What the camera wrote is seen between these two: its writes go past a processor's cache (Linux, DMA-BUF).
+  // Threads: one at a time.  Neither allocates.
+  void beginReading();
+  void endReading();
 
  private:
   struct Mapping {
@@ -28,9 +32,11 @@ class MappedBuffer {
     size_t bytes;
   };
   const Mapping *mapping(int file);
+  void synchronize(uint64_t flags) const;
 
   std::vector<Mapping> mappings_;
   sphc_libcamera_buffer planes_ = {};
+  bool is_read_ = false;
 };
 
 }  // namespace sphc::libcamera_plugin
