@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+import sys
 import threading
 
 from . import _interface
@@ -12,8 +13,11 @@ from .errors import Error, LibraryError
 
 VARIABLE = "SPHERECLOUD_LIBRARY"
 PACKAGED = pathlib.Path(__file__).parent / "lib"  # of a wheel that carries the library
-FILE = "libspherecloud.so"
-INSTALLED = f"{FILE}.{_interface.SPHC_ABI}"
+# In a wheel, and as the system's loader knows it.
+FILE, INSTALLED = {
+    "win32": ("spherecloud.dll", "spherecloud.dll"),
+    "darwin": ("libspherecloud.dylib", f"libspherecloud.{_interface.SPHC_ABI}.dylib"),
+}.get(sys.platform, ("libspherecloud.so", f"libspherecloud.so.{_interface.SPHC_ABI}"))
 
 _loaded: _interface.Interface | None = None
 _path = ""

@@ -25,6 +25,11 @@ class Library(unittest.TestCase):
         done = python(["-c", "import spherecloud; spherecloud.version()"], SPHERECLOUD_LIBRARY="/nowhere/lib.so")
         self.assert_says(done, "LibraryError", "/nowhere/lib.so", "set SPHERECLOUD_LIBRARY")
 
+    def test_names_of_other_systems(self):
+        for system, name in (("win32", "spherecloud.dll"), ("darwin", "libspherecloud.1.dylib"), ("linux", "libspherecloud.so.1")):
+            code = f"import sys, ctypes; sys.platform = {system!r}; from spherecloud import _library as l; print(*l.places())"
+            self.assertEqual(pathlib.Path(python(["-c", code]).stdout.split()[-1]).name, name)
+
     def test_another_library(self):
         done = python(["-c", "import spherecloud; spherecloud.load('libm.so.6')"])
         self.assert_says(done, "LibraryError", "libm.so.6 is not the library spherecloud")
