@@ -1,36 +1,13 @@
 #include "host/recording/foreign/packet_video.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
-
 #include <set>
 
 #include "host/recording/failure.h"
+#include "host/recording/foreign/ffmpeg.h"
 
 namespace sphc::recording {
 
 namespace {
-
-constexpr int kSilent = 100;  // beyond every level of libavcodec's log: failures are told here, with a cause
-
-template <typename Made>
-Made *made(Made *pointer) {
-  if (!pointer) throw std::bad_alloc();
-  return pointer;
-}
-
-bool isKey(const AVFrame &frame) {
-#ifdef AV_FRAME_FLAG_KEY
-  return frame.flags & AV_FRAME_FLAG_KEY;
-#else
-  return frame.key_frame;
-#endif
-}
-
-bool isFlawed(const AVFrame &frame) {
-  return (frame.flags & AV_FRAME_FLAG_CORRUPT) || frame.decode_error_flags != 0;
-}
 
 // From 0 to 255 to video range: Y from 16 to 235, U and V from 16 to 240.
 void toVideoRange(int height, cv::Mat *planes) {
@@ -59,27 +36,14 @@ cv::Mat planesOf(const AVFrame &frame) {
 }  // namespace
 
 struct PacketVideo::Decoder {
-  struct Deleter {
-    void operator()(AVCodecContext *owned) const { avcodec_free_context(&owned); }
-    void operator()(AVPacket *owned) const { av_packet_free(&owned); }
-    void operator()(AVFrame *owned) const { av_frame_free(&owned); }
-  };
-
   // From this packet on.
   void open(uint32_t first) {
-    const AVCodec *codec = avcodec_find_decoder(code == VideoCode::kH264 ? AV_CODEC_ID_H264 : AV_CODEC_ID_HEVC);
-    if (!codec) throw Failure(SPHC_E_UNSUPPORTED, "this build's libavcodec decodes no such video; install another");
-    context.reset(made(avcodec_alloc_context3(codec)));
-    context->thread_count = 1;  // threads would delay images
-    context->max_pixels = static_cast<int64_t>(most_px);
-    context->err_recognition |= AV_EF_EXPLODE;
-    context->log_level_offset = kSilent;
-    if (avcodec_open2(context.get(), codec, nullptr) < 0)
-      throw Failure(SPHC_E_UNSUPPORTED, "libavcodec does not open its decoder; install another");
+    context =
+        ffmpeg::openedDecoder(code == VideoCode::kH264 ? AV_CODEC_ID_H264 : AV_CODEC_ID_HEVC, nullptr, most_px);
     next = first;
     last = int64_t{first} - 1;
     is_drained = false;
-    damaged.clear();
+    damage = {};
   }
 
   // The next packet goes in with its number, which comes out with its image; after the last one nothing.
@@ -96,7 +60,7 @@ struct PacketVideo::Decoder {
     packet->size = static_cast<int>(view.size);
     packet->pts = next;
     const bool is_taken = view.size > 0 && avcodec_send_packet(context.get(), packet.get()) >= 0;
-    if (!is_taken) damaged.insert(next);
+    if (!is_taken) damage.add(next);
     ++next;
   }
 
@@ -105,16 +69,12 @@ struct PacketVideo::Decoder {
   void take() {
     const int64_t number = frame->pts;
     if (number <= last || number >= count) {
-      damaged.insert(last);
+      damage.add(last);
       return;
     }
     for (int64_t i = last + 1; i < number; ++i) is_refused[static_cast<size_t>(i)] = true;
-    if (isKey(*frame)) {
-      keys.insert(number);
-      damaged.erase(damaged.begin(), damaged.lower_bound(number));
-    }
-    if (isFlawed(*frame)) damaged.insert(number);
-    if (!damaged.empty() && *damaged.begin() <= number) is_refused[static_cast<size_t>(number)] = true;
+    if (ffmpeg::isKey(*frame)) keys.insert(number);
+    if (damage.reaches(*frame, number)) is_refused[static_cast<size_t>(number)] = true;
     last = number;
   }
 
@@ -125,7 +85,7 @@ struct PacketVideo::Decoder {
       if (status >= 0) {
         take();
       } else {
-        if (status != AVERROR(EAGAIN) && next > 0) damaged.insert(int64_t{next} - 1);
+        if (status != AVERROR(EAGAIN) && next > 0) damage.add(int64_t{next} - 1);
         if (is_drained) {
           for (int64_t i = last + 1; i < count; ++i) is_refused[static_cast<size_t>(i)] = true;
           return;
@@ -147,15 +107,15 @@ struct PacketVideo::Decoder {
   std::function<ByteView(uint32_t)> packet_bytes;
   std::vector<bool> is_refused;  // of each image, once that is known
 
-  std::unique_ptr<AVCodecContext, Deleter> context{};
-  std::unique_ptr<AVPacket, Deleter> packet{made(av_packet_alloc())};
-  std::unique_ptr<AVFrame, Deleter> frame{made(av_frame_alloc())};
+  ffmpeg::CodecContext context{};
+  ffmpeg::Packet packet{ffmpeg::made(av_packet_alloc())};
+  ffmpeg::Frame frame{ffmpeg::made(av_frame_alloc())};
   Bytes padded{};
   uint32_t next = 0;  // packet to go in
   int64_t last = -1;  // image that came out
   bool is_drained = false;
-  std::set<int64_t> damaged{};  // packets, from the last key image on
-  std::set<int64_t> keys{};     // that were seen
+  ffmpeg::Damage damage{};
+  std::set<int64_t> keys{};  // that were seen
 };
 
 PacketVideo::PacketVideo(VideoCode code, uint32_t packet_count, uint64_t most_px,
