@@ -35,8 +35,10 @@ inline void fill(AVFrame *frame, int image, const PixelOf &pixel_of) {
   frame->pts = image;
 }
 
+using TakePacket = std::function<void(const AVCodecContext &, AVPacket *)>;
+
 // In the order in which they are decoded.
-inline std::vector<std::string> encodedPackets(const EncoderSettings &settings, const PixelOf &pixel_of) {
+inline void encode(const EncoderSettings &settings, const PixelOf &pixel_of, const TakePacket &take) {
   AVCodecContext *context = avcodec_alloc_context3(avcodec_find_encoder_by_name(settings.codec));
   context->width = settings.width;
   context->height = settings.height;
@@ -46,7 +48,8 @@ inline std::vector<std::string> encodedPackets(const EncoderSettings &settings, 
   context->gop_size = settings.key_every;
   context->max_b_frames = settings.b_frames;
   context->thread_count = 1;
-  context->log_level_offset = 100;  // silent
+  if (context->codec_id == AV_CODEC_ID_MPEG4) context->qmax = 2;  // it knows no crf
+  context->log_level_offset = 100;                                // silent
   if (settings.b_frames == 0) av_opt_set(context->priv_data, "tune", "zerolatency", 0);
   av_opt_set(context->priv_data, "preset", "ultrafast", 0);
   av_opt_set(context->priv_data, "crf", "4", 0);
@@ -60,18 +63,24 @@ inline std::vector<std::string> encodedPackets(const EncoderSettings &settings, 
   frame->height = settings.height;
   av_frame_get_buffer(frame, 0);
   AVPacket *packet = av_packet_alloc();
-  std::vector<std::string> packets;
   for (int i = 0; i <= settings.image_count; ++i) {
     if (i < settings.image_count) fill(frame, i, pixel_of);
     avcodec_send_frame(context, i < settings.image_count ? frame : nullptr);
     while (avcodec_receive_packet(context, packet) == 0) {
-      packets.emplace_back(reinterpret_cast<const char *>(packet->data), static_cast<size_t>(packet->size));
+      take(*context, packet);
       av_packet_unref(packet);
     }
   }
   av_packet_free(&packet);
   av_frame_free(&frame);
   avcodec_free_context(&context);
+}
+
+inline std::vector<std::string> encodedPackets(const EncoderSettings &settings, const PixelOf &pixel_of) {
+  std::vector<std::string> packets;
+  encode(settings, pixel_of, [&](const AVCodecContext &, const AVPacket *packet) {
+    packets.emplace_back(reinterpret_cast<const char *>(packet->data), static_cast<size_t>(packet->size));
+  });
   return packets;
 }
 

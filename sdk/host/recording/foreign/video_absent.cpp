@@ -1,4 +1,4 @@
-// In place of video.cpp where OpenCV was built without its videoio.
+// In place of video.cpp where libavformat is not installed.
 #include "host/recording/failure.h"
 #include "host/recording/foreign/video.h"
 
@@ -8,7 +8,8 @@ struct Video::Decoder {};
 
 Video::Video(const std::filesystem::path &file) {
   throw Failure(SPHC_E_UNSUPPORTED, shortPath(file.string()) +
-                                        ": this build reads no video (OpenCV without videoio); put its frames "
+                                        ": this build reads no video; install libavformat-dev and libswscale-dev "
+                                        "and build again, or put its frames "
                                         "beside it as images: docs/imports.md has the command");
 }
 
