@@ -52,5 +52,5 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, spherecloud-tools"
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/install/prerm)
 # Of another release of libcamera the plug-in cannot be installed, and all else works without it.
 set(CPACK_DEBIAN_HOST_PACKAGE_RECOMMENDS "spherecloud-libcamera ${same}, spherecloud-doc ${same}")
-set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "spherecloud-libcamera ${same}, libopencv-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libavcodec-dev, libavformat-dev, libswscale-dev, libopenexr-dev, libzip-dev, libturbojpeg0-dev, libopenni2-dev")
+set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "spherecloud-libcamera ${same}, libopencv-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libavcodec-dev, libavformat-dev, libswscale-dev, libopenexr-dev, libzip-dev, libspng-dev, libturbojpeg0-dev, libopenni2-dev")
 include(CPack)

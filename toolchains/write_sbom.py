@@ -21,7 +21,7 @@ TOOLS = {"ccache", "cmake", "g++", "ninja-build", "pkg-config", "gnuplot-nox"}  
 LICENSES = {  # by source package, as their copyright files say
     "atlas": "BSD-3-Clause", "ceres-solver": "BSD-3-Clause", "cli11": "BSD-3-Clause", "eigen3": "MPL-2.0", "ffmpeg": "LGPL-2.1-or-later AND GPL-2.0-or-later", "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later", "google-glog": "BSD-3-Clause", "highway": "Apache-2.0", "libjpeg-turbo": "IJG AND BSD-3-Clause AND Zlib",
-    "libsodium": "ISC", "libyaml-cpp": "MIT", "yaml-cpp": "MIT", "libzstd": "BSD-3-Clause", "libzip": "BSD-3-Clause", "lz4": "BSD-2-Clause", "nanoflann": "BSD-2-Clause", "nlohmann-json3": "MIT",
+    "libsodium": "ISC", "libyaml-cpp": "MIT", "yaml-cpp": "MIT", "libspng": "BSD-2-Clause", "libzstd": "BSD-3-Clause", "libzip": "BSD-3-Clause", "lz4": "BSD-2-Clause", "nanoflann": "BSD-2-Clause", "nlohmann-json3": "MIT",
     "opencv": "Apache-2.0", "openexr": "BSD-3-Clause", "openni2": "Apache-2.0", "lapack": "BSD-3-Clause", "sqlite3": "blessing",
     "suitesparse": "LGPL-2.1-or-later AND GPL-2.0-or-later", "zlib": "Zlib"}
 

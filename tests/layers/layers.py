@@ -22,7 +22,7 @@ LIBRARIES = {"eigen": re.compile(r"^Eigen/"), "highway": re.compile(r"^hwy/"), "
              "openni2": re.compile(r"^(OniCAPI|PS1080)\.h$"), "sqlite": re.compile(r"^sqlite3\.h$"),
              "gtest": re.compile(r"^gtest/"), "json": re.compile(r"^nlohmann/"), "posix": POSIX, "turbojpeg": re.compile(r"^turbojpeg\.h$"),
              "openssh_ed25519": re.compile(r"^third_party/openssh_ed25519/"),
-             "libcamera": re.compile(r"^libcamera/"), "zlib": re.compile(r"^zlib\.h$"),
+             "spng": re.compile(r"^spng\.h$"), "libcamera": re.compile(r"^libcamera/"), "zlib": re.compile(r"^zlib\.h$"),
              "zstd": re.compile(r"^zstd\.h$")}
 # The device side makes no calls that need these, however standard they are.
 DEVICE_BANNED = {"thread", "mutex", "condition_variable", "future", "atomic", "iostream", "fstream", "sstream", "ostream",

@@ -9,19 +9,31 @@
 
 namespace sphc::test {
 
-// `rgb` is tightly packed; `flags` as TJFLAG_PROGRESSIVE.
-inline std::vector<uint8_t> jpegFrame(const std::vector<uint8_t> &rgb, uint32_t width, uint32_t height,
-                                      int subsampling = TJSAMP_422, int quality = 95, int flags = 0) {
+// `pixels` are tightly packed.
+inline std::vector<uint8_t> jpegOfPixels(const std::vector<uint8_t> &pixels, int pixel_format, uint32_t width,
+                                         uint32_t height, int subsampling, int quality, int flags) {
   const tjhandle encoder = tjInitCompress();
   unsigned char *jpeg = nullptr;
   unsigned long bytes = 0;
-  const int failed = tjCompress2(encoder, rgb.data(), static_cast<int>(width), 0, static_cast<int>(height),
-                                 TJPF_RGB, &jpeg, &bytes, subsampling, quality, flags);
+  const int failed = tjCompress2(encoder, pixels.data(), static_cast<int>(width), 0, static_cast<int>(height),
+                                 pixel_format, &jpeg, &bytes, subsampling, quality, flags);
   const std::vector<uint8_t> frame(jpeg, jpeg + bytes);
   tjFree(jpeg);
   tjDestroy(encoder);
   if (failed) throw std::runtime_error("cannot encode a JPEG");
   return frame;
+}
+
+// `flags` as TJFLAG_PROGRESSIVE.
+inline std::vector<uint8_t> jpegFrame(const std::vector<uint8_t> &rgb, uint32_t width, uint32_t height,
+                                      int subsampling = TJSAMP_422, int quality = 95, int flags = 0) {
+  return jpegOfPixels(rgb, TJPF_RGB, width, height, subsampling, quality, flags);
+}
+
+// In the colours of print.
+inline std::vector<uint8_t> cmykJpeg(uint32_t width, uint32_t height) {
+  return jpegOfPixels(std::vector<uint8_t>(size_t{4} * width * height, 90), TJPF_CMYK, width, height, TJSAMP_444,
+                      95, 0);
 }
 
 // A soft gradient, so that what the encoder loses is little.
