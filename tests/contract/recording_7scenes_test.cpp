@@ -9,6 +9,7 @@
 #include "host/recording/failure.h"
 #include "host/recording/recording.h"
 #include "host/recording/writer_7scenes.h"
+#include "tests/support/jpeg_frame.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
@@ -212,6 +213,17 @@ TEST_F(SevenScenes, RefusesADepthImageOfEightBits) {
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("frame-000000.depth.png"), HasSubstr("16-bit")));
+}
+
+TEST_F(SevenScenes, RefusesTheColoursOfPrint) {
+  addFrame(0, kPose, "jpg");
+  const std::vector<uint8_t> jpeg = test::cmykJpeg(kColorWidth, kColorHeight);
+  folder_.write("frame-000000.color.jpg", std::string(jpeg.begin(), jpeg.end()));
+  const OpenReplay replay = open();
+  sphc_localizer_frame frame;
+  sphc_message message{};
+  EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
+  EXPECT_THAT(message.text, AllOf(HasSubstr("frame-000000.color.jpg"), HasSubstr("CMYK; convert it to RGB")));
 }
 
 TEST_F(SevenScenes, RefusesAnImageOfAnotherSize) {

@@ -8,8 +8,8 @@ namespace sphc::recording {
 
 // Fills `pixels` with an image of the camera's size: DEPTH16, or colour in `format`.  Throws Failure without a
 // name: DEVICE when the bytes are of another type, corrupt or cut, IMAGE when the image does not fit the
-// calibration. Type and size are read from the header first: nothing larger than the camera's image is ever
-// decoded.
+// calibration or has the colours of print. Type and size are read from the header first: nothing larger than the
+// camera's image is ever decoded.
 void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
 
 // The same of a PNG image of this size that has four channels of 8 bits: blue, green, red, and a fourth.
@@ -22,9 +22,6 @@ class ImageEncoder {
   ByteView jpeg(const sphc_image &image, uint32_t quality);
 
  private:
-  ByteView encode(const sphc_image &image, const char *extension, const std::vector<int> &options);
-
-  Bytes bgr_;  // of an RGB image
   Bytes encoded_;
 };
 

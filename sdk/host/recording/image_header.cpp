@@ -65,6 +65,12 @@ ImageType imageTypeOf(const std::string &file) {
   throw Failure(SPHC_E_IMAGE, "is no .png, .jpg or .jpeg; convert it to PNG");
 }
 
+std::optional<ImageType> imageTypeOf(ByteView file) {
+  if (file.size == 0) return std::nullopt;
+  if (file.data[0] == 0x89) return ImageType::kPng;
+  return file.data[0] == 0xFF ? std::optional(ImageType::kJpeg) : std::nullopt;
+}
+
 ImageSize imageSizeOf(ByteView file, ImageType type) {
   ImageSize size = {};
   if (type == ImageType::kPng && !readPngSize(file, size)) failType("PNG");

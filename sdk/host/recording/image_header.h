@@ -1,6 +1,7 @@
 // What the first bytes of an image file say, read before a decoder sees any of it.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host/recording/mcap/bytes.h"
@@ -11,6 +12,8 @@ enum class ImageType { kPng, kJpeg };
 
 // By the name's ending, .png, .jpg or .jpeg; throws Failure (IMAGE) without the name for another.
 ImageType imageTypeOf(const std::string &file);
+// By the first byte, which is another in every other type.
+std::optional<ImageType> imageTypeOf(ByteView file);
 
 struct ImageSize {
   uint32_t width, height;

@@ -3,22 +3,18 @@
 #include <cstring>
 
 #include "failure.h"
+#include "host/images/channels.h"
 
 namespace sphc::recording {
 
 namespace {
-
-// As OpenCV reads a colour PNG to grey, so that a recording gives the same through each of its layouts.
-uint8_t grayOf(uint32_t red, uint32_t green, uint32_t blue) {
-  return static_cast<uint8_t>((9797 * red + 19234 * green + 3737 * blue) >> 15);
-}
 
 void convertRow(const uint8_t *in, sphc_format from, uint8_t *out, sphc_format to, uint32_t width) {
   if (from == SPHC_FORMAT_GRAY8) {
     for (uint32_t x = 0; x < width; ++x) std::memset(out + 3 * x, in[x], 3);
   } else if (to == SPHC_FORMAT_GRAY8) {
     const uint32_t red = from == SPHC_FORMAT_RGB8 ? 0 : 2;
-    for (uint32_t x = 0; x < width; ++x, in += 3) out[x] = grayOf(in[red], in[1], in[2 - red]);
+    for (uint32_t x = 0; x < width; ++x, in += 3) out[x] = host::grayOf(in[red], in[1], in[2 - red]);
   } else {
     for (uint32_t x = 0; x < width; ++x, in += 3, out += 3) {
       out[0] = in[2];

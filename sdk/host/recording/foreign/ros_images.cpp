@@ -79,10 +79,7 @@ RosCompressedImage compressedImage(const RosMessage &message) {
   return image;
 }
 
-ImageType compressedTypeOf(ByteView data) {
-  const bool is_png = data.size > 0 && data.data[0] == 0x89;
-  return is_png ? ImageType::kPng : ImageType::kJpeg;
-}
+ImageType compressedTypeOf(ByteView data) { return imageTypeOf(data).value_or(ImageType::kJpeg); }
 
 void decodeRvlDepth(ByteView data, const sphc_camera &camera, uint16_t *depth_mm) {
   ByteReader reader(data);
