@@ -1,10 +1,9 @@
 #include <filesystem>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
-#include "host/base/regular_file.h"
 #include "host/frames/frame_features.h"
 #include "host/import/colmap_descriptors.h"
+#include "host/import/colmap_images.h"
 
 namespace sphc::host {
 namespace {
@@ -45,19 +44,6 @@ class KeypointGrid {
   std::vector<std::vector<uint32_t>> cells_;
 };
 
-cv::Mat readGray(const std::string &folder, const ColmapImage &image, const sphc_camera &camera) {
-  const std::string path = (std::filesystem::path(folder) / image.name).string();
-  checkIsFile(path, "COLMAP's folder of images");
-  // As COLMAP saw it, however a viewer is told to turn it.
-  cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  if (gray.empty()) throw std::runtime_error("cannot read the image " + path + "; name COLMAP's folder of images");
-  if (gray.cols != static_cast<int>(camera.width) || gray.rows != static_cast<int>(camera.height))
-    throw std::runtime_error("the image " + path + " is " + std::to_string(gray.cols) + " x " +
-                             std::to_string(gray.rows) + ", its camera " + std::to_string(camera.width) + " x " +
-                             std::to_string(camera.height) + "; name the images that COLMAP saw");
-  return gray;
-}
-
 struct Seen {
   uint64_t point;
   uint32_t keypoint;
@@ -84,7 +70,7 @@ DescriptorsOfPoints describeAgain(const ColmapModel &model, const ColmapImportOp
     const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
     auto &found = features[image.camera];
     if (!found) found = std::make_unique<FrameFeatures>(width, height, options.max_keypoints);
-    const cv::Mat gray = readGray(options.images, image, camera);
+    const cv::Mat gray = readColmapPhoto((std::filesystem::path(options.images) / image.name).string(), camera);
     found->extract({gray.data, width, height, static_cast<int32_t>(gray.step)});
     const KeypointGrid grid(*found, width, height);
     for (const Seen &o : points) {

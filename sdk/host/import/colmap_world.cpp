@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
-#include "host/base/regular_file.h"
+#include "host/import/colmap_images.h"
 #include "host/import/point_tracks.h"
 #include "host/import/upright.h"
 #include "host/recording/calibration.h"
@@ -83,14 +83,7 @@ class DepthImages {
   cv::Mat read(const std::string &name, const sphc_camera &camera) const {
     const fs::path path = depthPath(folder_, name);
     if (!fs::exists(path)) return {};
-    checkIsFile(path.string(), "a folder of depth images");
-    cv::Mat depth = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-    if (depth.type() != CV_16UC1 || depth.cols != static_cast<int>(camera.width) ||
-        depth.rows != static_cast<int>(camera.height))
-      throw std::runtime_error("the depth image " + path.string() + " is not one of 16 bits and " +
-                               std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-                               "; where depth has a camera of its own, say so with --calibration");
-    return depth;
+    return readColmapDepth(path.string(), camera);
   }
 
   std::string folder_;

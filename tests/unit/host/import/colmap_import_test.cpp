@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/base/write_file.h"
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_world.h"
 #include "host/import/upright.h"
@@ -174,6 +175,36 @@ TEST_F(ColmapImport, AMissingImageIsNamed) {
   writeWall(folder_.path().string(), 1);
   cv::imwrite(folder_ / "a.png", cv::Mat(10, 10, CV_8UC1));
   EXPECT_THAT(refusal([this] { import(); }), HasSubstr("is 10 x 10, its camera 96 x 72"));
+}
+
+// Pixels that are damaged, other files than PNG and JPEG, and depth that is none: each with its cure.
+TEST_F(ColmapImport, AnImageThatCannotBeDecodedIsNamed) {
+  options_.metres_per_unit = 1;
+  options_.descriptors = ColmapDescriptors::kAgain;
+  options_.images = folder_.path().string();
+  const std::string file = folder_ / "a.png";
+  std::vector<uint8_t> bytes;
+  cv::imencode(".bmp", cv::Mat(72, 96, CV_8UC1, cv::Scalar(90)), bytes);
+  writeFile(file, bytes);
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png is neither PNG nor JPEG; convert it to one of them"));
+  cv::imencode(".png", cv::Mat(72, 96, CV_8UC1, cv::Scalar(90)), bytes);
+  bytes.resize(bytes.size() - 20);
+  writeFile(file, bytes);
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png is cut short; "));
+}
+
+TEST_F(ColmapImport, DepthThatIsNoneIsNamed) {
+  writeWall(folder_.path().string(), test::kTinyWallM);
+  options_.depth = folder_.path().string();
+  const std::string file = folder_ / "a.png", not_depth = "a.png is not one of 16 bits and 96 x 72; where depth";
+  cv::imwrite(file, cv::Mat(72, 96, CV_8UC1, cv::Scalar(90)));
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr(not_depth));
+  cv::imwrite(file, cv::Mat(70, 96, CV_16UC1, cv::Scalar(90)));
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr(not_depth));
+  std::vector<uint8_t> bytes;
+  cv::imencode(".tiff", cv::Mat(72, 96, CV_16UC1, cv::Scalar(90)), bytes);
+  writeFile(file, bytes);
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png cannot be decoded: is no PNG"));
 }
 
 // A note of EXIF says how to turn the image for a person, and COLMAP's keypoints are of the image as it is.
