@@ -3,9 +3,10 @@
 #include <zlib.h>
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <vector>
+
+#include "host/report/picture_bytes.h"
 
 namespace sphc::host {
 namespace {
@@ -37,8 +38,7 @@ void checkPictureName(const std::string &path) {
 
 void writePicture(const std::string &path, const cv::Mat &picture, Readers readers) {
   checkPictureName(path);
-  std::vector<uint8_t> png;
-  cv::imencode(".png", picture, png);
+  std::vector<uint8_t> png = pngOf(picture);
   const std::vector<uint8_t> mark = markChunk();
   png.insert(png.begin() + kHeaderEnd, mark.begin(), mark.end());
   writeFile(path, png, readers);

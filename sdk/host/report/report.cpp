@@ -1,8 +1,6 @@
 #include "host/report/report.h"
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 
 #include "host/base/write_file.h"
 #include "host/report/direction_picture.h"
@@ -11,6 +9,7 @@
 #include "host/report/json.h"
 #include "host/report/overlay.h"
 #include "host/report/page.h"
+#include "host/report/picture_bytes.h"
 #include "host/report/plots.h"
 #include "host/report/reliability_plot.h"
 #include "host/report/top_view.h"
@@ -19,20 +18,11 @@
 namespace sphc::host {
 namespace {
 
+constexpr uint32_t kOverlayQuality = 88;  // of JPEG
+
 std::string textOf(const std::string &path) {
   const auto bytes = readBytes(path);
   return {bytes.begin(), bytes.end()};
-}
-
-// Encodes, writes FOLDER/NAME and returns the bytes for the page.
-std::vector<uint8_t> writePicture(const std::string &path, const cv::Mat &picture,
-                                  const std::vector<int> &options) {
-  std::vector<uint8_t> encoded;
-  if (!cv::imencode(std::filesystem::path(path).extension().string(), picture, encoded, options))
-    throw std::runtime_error("cannot encode " + path +
-                             ": OpenCV has no encoder for this kind; end its name in .png");
-  writeFile(path, encoded);
-  return encoded;
 }
 
 void addOverlays(const std::string &folder, const Run &run, const ImageOfFrame &image_of_frame,
@@ -49,8 +39,8 @@ void addOverlays(const std::string &folder, const Run &run, const ImageOfFrame &
              ? std::to_string(frame.inliers) + " of " + std::to_string(frame.matches) + " matches agree."
              : std::string(outcomeName(frame.outcome)) + ", " + outcomeAdvice(frame.outcome) + ".");
     picture.mime = "image/jpeg";
-    picture.encoded = writePicture(folder + "/overlay_" + highlight.name + ".jpg", drawOverlay(color, frame),
-                                   {cv::IMWRITE_JPEG_QUALITY, 88});
+    picture.encoded = jpegOf(drawOverlay(color, frame), kOverlayQuality);
+    writeFile(folder + "/overlay_" + highlight.name + ".jpg", picture.encoded);
     content->overlays.push_back(std::move(picture));
   }
 }
@@ -118,7 +108,8 @@ void addDirections(const std::string &folder, const Run &run, PageContent *conte
                                          is_turned ? Longitudes::kBare : Longitudes::kNumbered);
   // Pixels of other axes count a little otherwise; the number that is told is that of `inspect`.
   drawDirections(run.maps[map].directions, &content->direction_peak);
-  content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
+  content->directions.encoded = pngOf(picture);
+  writeFile(folder + "/map_directions.png", content->directions.encoded);
 }
 
 // By it the next run knows the folder, should this one end before its page is written.  The page of an earlier run

@@ -1,7 +1,6 @@
 #include "host/audit/report/page.h"
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "host/audit/score/inversion_sheet.h"
 #include "host/base/listed.h"
@@ -9,6 +8,7 @@
 #include "host/report/encode.h"
 #include "host/report/file.h"
 #include "host/report/page_style.h"
+#include "host/report/picture_bytes.h"
 #include "host/report/statistics.h"
 
 namespace sphc::host {
@@ -82,7 +82,7 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
   std::vector<uint8_t> png;
   const cv::Mat sheet = inversionSheet(audit.views, audit.inversions);
   if (!sheet.empty()) {
-    cv::imencode(".png", sheet, png);
+    png = pngOf(sheet);
     pictures =
         "<section><h2>What inversion shows</h2><p class=soft>Views from the centre. The network has never seen the "
         "place. A picture tells its place when it is more like its own truth than like that of any other view.</p>"
