@@ -174,7 +174,7 @@ stage_tsan_commands() {
 stage_coverage() {
   # One instruction set: of those that Highway dispatches to, clang maps the lines of the last alone.
   local counted='-O1 -g1 -march=x86-64-v3 -fprofile-instr-generate -fcoverage-mapping'
-  local programs='unit_runtime unit_signature unit_encryption capi_test halves_test mutation_test replay_driver_test foreign_recordings_test raw_driver_test host_calibration_test unit_host pixels_test'
+  local programs='unit_runtime unit_signature unit_encryption capi_test halves_test mutation_test replay_driver_test foreign_recordings_test raw_driver_test host_calibration_test unit_host host_images_test pixels_test'
   local -x CCACHE_BASEDIR= # a header that is known by two paths would be counted as two
   prepare runtime build test coverage
   check "coverage: build" build build/coverage "$programs" "${sanitized[@]}" $unity $linker \
