@@ -14,6 +14,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/point_source.h"
+#include "host/cli/common/progress.h"
 #include "host/cli/common/recording_check.h"
 #include "host/cli/common/rig_options.h"
 #include "host/live/consistency_check.h"
@@ -160,9 +161,9 @@ class CaptureChecks {
 
 enum class Seen { kAll, kUntilInterrupted, kUntilLate };
 
-Seen watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChecks *checks) {
+Seen watch(const DoctorOptions &options, bool is_recording, const Interrupt &interrupt, Rig *rig,
+           CaptureChecks *checks) {
   StatusLine line;
-  const Interrupt interrupt;
   const auto until = std::chrono::steady_clock::now() + kPatience;
   const auto is_over = [&] {
     return is_recording ? checks->captures() > kMostCaptures * options.frames
@@ -195,6 +196,22 @@ std::optional<Finding> findingOfHowMany(Seen seen, size_t pairs, uint32_t wanted
   return std::nullopt;
 }
 
+// They take longer than the pairs do.
+Findings comparedPoses(const DoctorOptions &options, const Interrupt &interrupt,
+                       recording::RecordingReader *recording) {
+  RgbdImportOptions import;
+  import.depth_min_m = options.depth_min_m;
+  import.depth_max_m = options.depth_max_m;
+  ProgressBar bar("comparing poses");
+  const Findings findings = findingsOfPoses(recording, import, [&](uint32_t done, uint32_t total) {
+    interrupt.throwIfCame();
+    bar.show(done, total);
+  });
+  if (interrupt.came())
+    return {{Grade::kWrong, "poses", "interrupted before they were compared with depths; let it end"}};
+  return findings;
+}
+
 Findings lookAt(DoctorOptions options, const Console &console) {
   Troubles of_captures;
   options.rig.wish.at_once = true;
@@ -206,7 +223,8 @@ Findings lookAt(DoctorOptions options, const Console &console) {
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
   CaptureChecks checks(calibration, options, recording != nullptr);
   if (recording) checks.expect(recording->recording());
-  const Seen seen = watch(options, recording != nullptr, &rig, &checks);
+  const Interrupt interrupt;
+  const Seen seen = watch(options, recording != nullptr, interrupt, &rig, &checks);
   const std::optional<Finding> how_many = findingOfHowMany(seen, checks.pairs(), options.frames);
   if (how_many && checks.captures() == 0) return {*how_many};
   Findings findings = findingsOfField(calibration);
@@ -220,12 +238,8 @@ Findings lookAt(DoctorOptions options, const Console &console) {
       findings.push_back({Grade::kDoubtful, "times", fault});
   const sphc_pairer_counts counts = rig.counts();
   append(checks.ofPairs(counts.too_far + counts.overtaken + counts.full), &findings);
-  if (recording && checks.fit()) {
-    RgbdImportOptions import;
-    import.depth_min_m = options.depth_min_m;
-    import.depth_max_m = options.depth_max_m;
-    append(findingsOfPoses(recording, import), &findings);
-  }
+  if (recording && checks.fit() && seen != Seen::kUntilInterrupted)
+    append(comparedPoses(options, interrupt, recording), &findings);
   return findings;
 }
 

@@ -105,7 +105,7 @@ Findings findingsOfImages(const RecordingReader &reader) {
   return findings;
 }
 
-Findings findingsOfPoses(RecordingReader *reader, const RgbdImportOptions &import) {
+Findings findingsOfPoses(RecordingReader *reader, const RgbdImportOptions &import, const Progress &progress) {
   const size_t poses = reader->recording().poses.poses().size();
   const std::string &fault = reader->recording().pose_fault;
   if (!fault.empty()) return {{Grade::kDoubtful, "poses", fault}};
@@ -117,7 +117,7 @@ Findings findingsOfPoses(RecordingReader *reader, const RgbdImportOptions &impor
              "none of " + counted(poses, "pose") + ofOtherTimes(*reader, reader->recording().poses)}};
   RgbdImportSummary summary;
   try {
-    importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, import, {}, &summary);
+    importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, import, progress, &summary);
   } catch (const std::runtime_error &error) {
     return {{Grade::kDoubtful, "poses", error.what()}};
   }

@@ -13,6 +13,7 @@ Findings findingsOfImages(const recording::RecordingReader &reader);
 
 // Whether there are poses, and whether they and depths agree, as `build` would say of some of the frames with its
 // options `import`.
-Findings findingsOfPoses(recording::RecordingReader *reader, const RgbdImportOptions &import);
+Findings findingsOfPoses(recording::RecordingReader *reader, const RgbdImportOptions &import,
+                         const Progress &progress);
 
 }  // namespace sphc::host

@@ -202,6 +202,16 @@ TEST_F(DoctorTest, AnInterruptedOneIsNoSuccess) {
   EXPECT_THAT(answer.out, AllOf(HasSubstr("interrupted after "), HasSubstr(" of 10000 pairs")));
 }
 
+// What was not looked at is not judged: poses are compared after the last pair.
+TEST_F(DoctorTest, AnInterruptedOneComparesNoPoses) {
+  const Answer answer = runProgram(
+      "sh -c", "'" SPHC_COMMAND " doctor --device replay:" + at("walk") +
+                   " --frames 10000 & child=$!; while kill -0 $child && ! grep -q \"SigCgt:.*[4567cdef]...$\" "
+                   "/proc/$child/status; do :; done; kill -TERM $child; wait $child'");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("interrupted "), Not(HasSubstr("lie where poses"))));
+}
+
 TEST_F(DoctorTest, SwappedImagesAreNotToBeCopiedAgain) {
   const std::string walk = copyOfWalk("swapped");
   fs::rename(walk + "/rgb.txt", walk + "/other.txt");

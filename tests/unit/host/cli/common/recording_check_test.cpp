@@ -26,7 +26,7 @@ class RecordingCheckTest : public testing::Test {
   Findings ofImages() const { return findingsOfImages(recording::RecordingReader(walk())); }
   Findings ofPoses() const {
     recording::RecordingReader reader(walk());
-    return findingsOfPoses(&reader, {});
+    return findingsOfPoses(&reader, {}, {});
   }
   void exchange(const std::string &a, const std::string &b) const {
     std::filesystem::rename(walk() + "/" + a, walk() + "/other");
@@ -105,7 +105,7 @@ TEST_F(RecordingCheckTest, WhyABagHasNoPosesIsSaid) {
   bag.add("/odom", "nav_msgs/msg/Odometry", 1, test::rosOdometry(1, {"odom", "base_link", same}));
   folder_.write("bag.mcap", bag.bytes(test::RosBag::Chunks::kStored));
   recording::RecordingReader reader(folder_ / "bag.mcap");
-  const Findings findings = findingsOfPoses(&reader, {});
+  const Findings findings = findingsOfPoses(&reader, {}, {});
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].grade, Finding::Grade::kDoubtful);
   EXPECT_THAT(findings[0].text, HasSubstr("moves base_link, and no transform joins that to camera, the colour"));
