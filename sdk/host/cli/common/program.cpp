@@ -5,6 +5,7 @@
 #include <spherecloud/spherecloud.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -16,6 +17,8 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "host/base/usage_error.h"
 #include "host/cli/common/exit_code.h"
@@ -66,6 +69,26 @@ int usage(const CLI::App &root, const std::string &why) {
   return kExitUsage;
 }
 
+// What was given and nothing takes, in the order in which it was given.
+std::vector<std::string> leftOver(const CLI::App &root) {
+  const auto chosen = root.get_subcommands();
+  std::vector<std::string> words = chosen.empty() ? std::vector<std::string>() : chosen.front()->remaining();
+  words.erase(std::remove(words.begin(), words.end(), "--"), words.end());
+  return words;
+}
+
+std::string causeOf(const CLI::ParseError &error, const CLI::App &root) {
+  const std::vector<std::string> words = leftOver(root);
+  const int code = error.get_exit_code();
+  // A name that was misspelt would be told as one that is missing, and a value before its option.
+  const bool is_of_words = code == static_cast<int>(CLI::ExitCodes::ExtrasError) ||
+                           code == static_cast<int>(CLI::ExitCodes::RequiredError);
+  if (!is_of_words || words.empty()) return error.what();
+  const bool is_file = words[0][0] == '-' && std::filesystem::exists(words[0]);
+  return "not expected: " + CLI::detail::join(words, " ") +
+         (is_file ? "; write the file's name as ./" + words[0] : std::string());
+}
+
 int parseAndRun(const Program &program, int argc, char **argv) {
   CLI::App root(program.about, program.name);
   const auto formatter = std::make_shared<Formatter>();
@@ -87,7 +110,7 @@ int parseAndRun(const Program &program, int argc, char **argv) {
       return status;
     }
     const bool is_unknown = root.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
-    return usage(root, is_unknown ? std::string("there is no subcommand ") + argv[1] : error.what());
+    return usage(root, is_unknown ? std::string("there is no subcommand ") + argv[1] : causeOf(error, root));
   }
   try {
     return runChosen(commands, console);

@@ -186,6 +186,26 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
   }
 }
 
+// As it was given, and before what is missing because of it.
+TEST(CommandLine, WhatNothingTakesIsNamed) {
+  const test::TempFolder folder;
+  const std::pair<const char *, const char *> mistakes[] = {
+      {"info --bogus", "not expected: --bogus\n"},
+      {"live --device replay:r --mapp m", "not expected: --mapp m\n"},
+      {"record --out w.mcap --device replay:r --frames 3", "not expected: --frames 3\n"},
+      {"info -x.sphc", "not expected: -x.sphc\n"},
+      {"info", "map is required\n"},
+      {"info --", "map is required\n"}};
+  for (const auto &[command, reason] : mistakes) {
+    const Answer answer = runCommand(command);
+    EXPECT_EQ(answer.exit_code, kExitUsage) << command;
+    EXPECT_THAT(answer.err, HasSubstr(reason)) << command;
+  }
+  writeTinyMap(folder / "-x.sphc", 40);
+  EXPECT_THAT(runProgram("sh -c", "'cd " + (folder / "") + " && " SPHC_COMMAND " info -x.sphc'").err,
+              HasSubstr("not expected: -x.sphc; write the file's name as ./-x.sphc\n"));
+}
+
 TEST(CommandLine, MissingInputIsExitCodeOneAndNamesIt) {
   for (const std::string &command :
        {std::string("info /nonexistent.sphc"), std::string("calibration /nonexistent.yaml"),
