@@ -307,11 +307,21 @@ void Ledger::takeKey(const SecretKey &key) {
   key_ = key;
 }
 
+void Ledger::lock(bool is_new) {
+  try {
+    run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
+  } catch (const std::runtime_error &) {
+    // A full disk has no room for the journal.  Reading holds a lock until the file is closed, so nobody fills it.
+    if (is_new && isEmpty()) database_.get_deleter().unrecorded = path_;
+    throw;
+  }
+}
+
 Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
   const bool is_new = makeFile(path);
   checkMode(path);
   Ledger ledger(path, SQLITE_OPEN_READWRITE);
-  ledger.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
+  ledger.lock(is_new);
   if (ledger.isEmpty()) {
     // Another program may have filled a new file before this one had it alone.
     if (is_new) ledger.database_.get_deleter().unrecorded = path;

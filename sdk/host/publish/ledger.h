@@ -36,6 +36,7 @@ class Ledger {
   };
   Ledger(const std::string &path, int flags);
   void run(const char *statement);
+  void lock(bool is_new);  // for this program alone, until the ledger is closed
   void make(const SecretKey &key);
   void change(const std::function<void()> &statements);
   bool isEmpty() const;

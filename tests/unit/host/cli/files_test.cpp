@@ -498,6 +498,15 @@ TEST_F(FilesTest, AnInterruptedSimulationLeavesNothing) {
   EXPECT_FALSE(fs::exists(out) || fs::exists(out + ".part"));
 }
 
+// Not even the lock of a new ledger finds room.
+TEST_F(FilesTest, AFullDiskLeavesNoNewLedger) {
+  const std::string ledger = at("full.ledger");
+  const Answer answer = runProgram("sh -c", "'ulimit -f 0; exec " SPHC_COMMAND " build -r " + at("walk") + " -m " +
+                                                at("full.sphc") + " --ledger " + ledger + "'");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_FALSE(fs::exists(ledger) || fs::exists(ledger + "-journal") || fs::exists(at("full.sphc")));
+}
+
 // The lines of a list again and again, later each time.
 void repeatLines(const std::string &list) {
   const std::string once = fileText(list);
