@@ -1,6 +1,8 @@
 #include "host/cli/common/rig_options.h"
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "host/base/checked_call.h"
 #include "host/base/usage_error.h"
@@ -32,6 +34,26 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
       ->check(between(0, 1000));
 }
 
+namespace {
+
+bool hasModes(const std::string &camera) {
+  return camera.rfind("v4l2:", 0) == 0 || camera.rfind("libcamera:", 0) == 0;
+}
+
+// Other cameras would leave it out without a word.
+void checkModes(const RigOptions &options) {
+  if (hasModes(options.color) || hasModes(options.depth)) return;
+  const std::pair<const char *, uint32_t> wishes[] = {
+      {"--width", options.wish.width}, {"--height", options.wish.height}, {"--fps", options.wish.fps}};
+  for (const auto &[name, wish] : wishes)
+    if (wish > 0)
+      throw UsageError(std::string(name) +
+                       " is of v4l2: and libcamera: cameras; leave it out, since others keep "
+                       "the mode that they have");
+}
+
+}  // namespace
+
 void checkRigOptions(const RigOptions &options) {
   const bool two = !options.color.empty() && !options.depth.empty();
   const bool any_of_two = !options.color.empty() || !options.depth.empty();
@@ -39,6 +61,7 @@ void checkRigOptions(const RigOptions &options) {
     throw UsageError("--device gives colour and depth; leave it out, or --color and --depth");
   if (options.both.empty() && !two)
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
+  checkModes(options);
 }
 
 sphc_rig calibrationOf(const RigOptions &options, const Rig &rig) {

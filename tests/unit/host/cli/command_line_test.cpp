@@ -177,6 +177,8 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"doctor --calibration c", "--calibration is of cameras"},
       {"live -m m --device replay:r --width -1", "--width"},
       {"live -m m --device replay:r --fps 0x10", "--fps"},
+      {"live -m m --device replay:r --width 320", "--width is of v4l2: and libcamera: cameras"},
+      {"record -o w.mcap --color simulated: --depth replay:r --fps 30", "--fps is of v4l2: and libcamera: cameras"},
       {"doctor --device replay:r --depth-min 3 --depth-max 2", "--depth-min must be less than --depth-max"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
