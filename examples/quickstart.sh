@@ -55,10 +55,11 @@ run_logged() {
 configure_and_build() {
   # A compiler cache serves every checkout.
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-  # The command alone, without drivers of devices; what it computes is the same at any level of optimisation.
+  # The command alone, without drivers of devices, several files as one; what it computes is the same at any level of
+  # optimisation.
   (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF -DSPHC_LAB=OFF \
     -DSPHC_EXAMPLES=OFF -DSPHC_DRIVER_LIBCAMERA=OFF -DSPHC_DRIVER_OPENNI2=OFF -DSPHC_DRIVER_V4L2=OFF \
-    "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
+    -DSPHC_UNITY=ON "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
   NINJA_STATUS='      [%f/%t] ' run_logged "$out/build.log" cmake --build "$build" --target spherecloud_cli
 }
 
