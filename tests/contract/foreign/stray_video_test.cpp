@@ -118,6 +118,10 @@ TEST_P(StrayVideo, IsNotTurned) {
   std::string file = folder_.read("rgb.mp4");
   const std::string quarter = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, '\xFF', '\xFF', 0, 0, 0, 0, 0, 0};
   folder_.write("rgb.mp4", file.replace(file.find("tkhd") + 44, quarter.size(), quarter));
+#ifdef SPHC_TEST_VIDEOIO
+  EXPECT_EQ(cv::VideoCapture(path_, cv::CAP_FFMPEG).get(cv::CAP_PROP_FRAME_WIDTH), kShotRows)
+      << "the matrix counts";
+#endif
   EXPECT_EQ(framesOf(path_), frames);
 }
 
