@@ -12,18 +12,6 @@ namespace sphc::recording {
 
 namespace {
 
-class Options {
- public:
-  Options() = default;
-  Options(Options &&other) noexcept : options_(other.options_) { other.options_ = nullptr; }
-  ~Options() { av_dict_free(&options_); }
-  void set(const char *name, const std::string &value) { av_dict_set(&options_, name, value.c_str(), 0); }
-  AVDictionary **get() { return &options_; }
-
- private:
-  AVDictionary *options_ = nullptr;
-};
-
 // The demuxer takes files of many kinds, and what is found in one may lead to others: only MP4 gets there.
 void requireMp4(const std::filesystem::path &path) {
   const File file(path);
@@ -36,23 +24,20 @@ void requireMp4(const std::filesystem::path &path) {
 // By its path from the root: a name may hold what FFmpeg takes for an address.  Other files that it names are not
 // opened, which is the demuxer's default.
 AVFormatContext *opened(const std::filesystem::path &file) {
-  Options options;
-  options.set("protocol_whitelist", "file");
-  AVFormatContext *context = nullptr;
   const std::string address = "file:" + std::filesystem::absolute(file).string();
-  return avformat_open_input(&context, address.c_str(), av_find_input_format("mov"), options.get()) < 0 ? nullptr
-                                                                                                        : context;
+  AVDictionary *options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  AVFormatContext *context = nullptr;
+  const int status = avformat_open_input(&context, address.c_str(), av_find_input_format("mov"), &options);
+  av_dict_free(&options);
+  return status < 0 ? nullptr : context;
 }
 
 // What the file's head does not tell of the video, its first packets do.
 bool probe(AVFormatContext *context, uint64_t most_px) {
-  std::vector<AVDictionary *> of_streams;
-  Options options;
-  options.set("max_pixels", std::to_string(most_px));
-  for (unsigned i = 0; i < context->nb_streams; ++i) {
-    of_streams.push_back(nullptr);
-    av_dict_copy(&of_streams.back(), *options.get(), 0);
-  }
+  const std::string most = std::to_string(most_px);
+  std::vector<AVDictionary *> of_streams(context->nb_streams, nullptr);
+  for (AVDictionary *&options : of_streams) av_dict_set(&options, "max_pixels", most.c_str(), 0);
   const int status = avformat_find_stream_info(context, of_streams.data());
   for (AVDictionary *left : of_streams) av_dict_free(&left);
   return status >= 0;
